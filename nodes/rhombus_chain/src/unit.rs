@@ -1,0 +1,92 @@
+//! One rhombus unit: four rods, two diagonals. Equations (4) to (9) of the paper.
+//!
+//! A unit of any size is described by its *stretch* `e = dl / (2 a) = sin x - sin theta`, which all units of a chain share.
+//! With the sine known, everything below is algebra: no transcendental function is called, and nothing cancels for
+//! a small stretch or for an angle close to either end of (0, pi/2).
+
+/// A unit's rest angle, prepared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Rhombus {
+    pub(crate) sine: f64,
+    pub(crate) cosine: f64,
+    pub(crate) tangent: f64,
+    /// `1 - sin theta`, the largest stretch geometry allows, with all its digits near pi/2.
+    pub(crate) largest_stretch: f64,
+}
+
+/// A stretched unit, `x = theta + d_theta`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct StretchedRhombus {
+    pub(crate) stretch: f64,
+    /// `sin x` (5).
+    pub(crate) sine: f64,
+    /// `cos x` (5).
+    pub(crate) cosine: f64,
+    /// `t = tan(theta + d_theta/2)`, so that `dw = -t dl` (7).
+    pub(crate) mean_tangent: f64,
+    /// `cos x + cos theta`.
+    cosines: f64,
+}
+
+impl Rhombus {
+    /// `angle_rad` in (0, pi/2).
+    pub(crate) fn new(angle_rad: f64) -> Self {
+        let sine = libm::sin(angle_rad);
+        let cosine = libm::cos(angle_rad);
+        Self { sine, cosine, tangent: sine / cosine, largest_stretch: cosine * cosine / (1.0 + sine) }
+    }
+
+    /// The unit at a stretch inside `-sin theta .. 1 - sin theta`.
+    ///
+    /// ```text
+    /// cos x = sqrt((1 - sin x)(1 + sin x)),    tan((theta + x)/2) = (sin theta + sin x) / (cos theta + cos x)
+    /// ```
+    #[inline]
+    pub(crate) fn stretched(&self, stretch: f64) -> StretchedRhombus {
+        let sine = self.sine + stretch;
+        let cosine = ((self.largest_stretch - stretch) * (1.0 + sine)).sqrt();
+        let cosines = self.cosine + cosine;
+        StretchedRhombus { stretch, sine, cosine, mean_tangent: (self.sine + sine) / cosines, cosines }
+    }
+
+    /// The stretch at which `cos x` has the given value in `[0, 1]`, `x` in `[0, pi/2]`.
+    pub(crate) fn stretch_at_cosine(&self, cosine: f64) -> f64 {
+        let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
+        // sin x - sin theta, as the difference of the two distances from 1.
+        self.largest_stretch - cosine * cosine / (1.0 + sine)
+    }
+}
+
+impl StretchedRhombus {
+    pub(crate) const UNSET: Self =
+        Self { stretch: 0.0, sine: 0.0, cosine: 1.0, mean_tangent: 0.0, cosines: 2.0 };
+
+    /// `tan x`.
+    #[inline]
+    pub(crate) fn tangent(&self) -> f64 {
+        self.sine / self.cosine
+    }
+
+    /// `d_theta = asin(sin theta + e) - theta`, from `tan(d_theta/2) = (sin x - sin theta) / (cos x + cos theta)`.
+    #[inline]
+    pub(crate) fn d_theta(&self) -> f64 {
+        2.0 * libm::atan(self.stretch / self.cosines)
+    }
+
+    /// `sin(d_theta) - d_theta`, by its series where the difference would lose digits.
+    #[inline]
+    pub(crate) fn sine_excess(&self) -> f64 {
+        const SERIES_UP_TO_RAD: f64 = 0.5;
+        let d_theta = self.d_theta();
+        let square = d_theta * d_theta;
+        if d_theta.abs() > SERIES_UP_TO_RAD {
+            return libm::sin(d_theta) - d_theta;
+        }
+        // -d^3/3! (1 - d^2/(4*5) (1 - d^2/(6*7) (...)))
+        let mut series = 1.0;
+        for divisor in [210.0, 156.0, 110.0, 72.0, 42.0, 20.0] {
+            series = 1.0 - square / divisor * series;
+        }
+        -d_theta * square / 6.0 * series
+    }
+}
