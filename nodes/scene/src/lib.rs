@@ -1,1 +1,26 @@
-//! Placeholder.
+//! What a scene file may say: names, units, ranges, defaults, validation; mesh files in, checked bodies out.
+
+mod chains;
+mod error;
+pub mod generate;
+mod mesh_source;
+mod origin;
+mod parameters;
+mod scene;
+pub mod schema;
+mod sections;
+mod value;
+mod yaml;
+
+pub use chains::ChainSettings;
+pub use error::{Problem, SceneError};
+pub use generate::BodyKind;
+pub use origin::Origin;
+pub use parameters::Parameters;
+pub use scene::{
+    BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
+    ReplaySettings, Scene, SessionSettings, SimulatedSettings, SurfaceSettings, VisualizationSettings,
+};
+pub use schema::{Check, DefaultValue, Kind, Length, Node, ParameterSpec, schema};
+pub use sections::Reader;
+pub use value::Value;

@@ -1,0 +1,301 @@
+//! The scene in typed groups: what the nodes read instead of parameter names.
+
+use std::path::{Path, PathBuf};
+
+use rhombus_chain::{Pose, Spread, SurfaceParameters, Tissue};
+
+use crate::{BodyKind, ChainSettings, Parameters, Problem, Reader, SceneError, Value};
+
+/// A validated scene. Every value has been checked against the schema; what depends on several values has been
+/// checked too, except the chains and the mesh, which only the nodes that use them build:
+/// [`Scene::tissue`], [`Scene::load_body`].
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// What is touched.
+    pub body: BodySettings,
+    /// The parallel chains; none when no `chains.*` array is given.
+    pub chains: Option<ChainSettings>,
+    /// How the surface follows a contact.
+    pub surface: SurfaceSettings,
+    /// What touches it.
+    pub probe: ProbeSettings,
+    /// Grasping.
+    pub grasp: GraspSettings,
+    /// Frames and devices of the session.
+    pub session: SessionSettings,
+    /// The haptic device.
+    pub device: DeviceSettings,
+    /// The simulated backend's hand.
+    pub simulated: SimulatedSettings,
+    /// What RViz shows.
+    pub visualization: VisualizationSettings,
+    /// What is recorded.
+    pub recording: RecordingSettings,
+    /// What is replayed.
+    pub replay: ReplaySettings,
+    parameters: Parameters,
+}
+
+/// `body.*`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodySettings {
+    /// Where the rest surface comes from.
+    pub mesh: MeshSource,
+    /// Factor that makes mesh coordinates metres.
+    pub scale: f64,
+    /// Frame of the rest surface.
+    pub frame_id: String,
+    /// Pose of the body in the scene.
+    pub scene_from_body: Pose,
+}
+
+/// Where a rest surface comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MeshSource {
+    /// Generated, with its default number of vertices.
+    BuiltIn(BodyKind),
+    /// An OBJ file; the path is resolved.
+    File(PathBuf),
+}
+
+/// `surface.*`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceSettings {
+    /// Boundary criterion, share of the rest angle.
+    pub cutoff: f64,
+    /// Share of the displaced volume that bulges outward; 0 computes none.
+    pub expansion: f64,
+    /// Meaning of distance from the contact.
+    pub spread: Spread,
+    /// Published displacements, Hz of stamps; 0 computes none.
+    pub rate_hz: f64,
+}
+
+/// `probe.*`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProbeSettings {
+    /// Radius of the sphere, m.
+    pub radius_m: f64,
+    /// Radius that moves with the contact by the full depth, m.
+    pub contact_radius_m: f64,
+}
+
+/// `grasp.*`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GraspSettings {
+    /// Lateral stiffness as a share of the law's stiffness at rest.
+    pub lateral: f64,
+    /// The gripper holds below this angle, rad.
+    pub close_below_rad: f64,
+}
+
+/// What the nodes of a session share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SessionSettings {
+    /// Frame in which body and devices stand.
+    pub scene_frame_id: String,
+    /// Sub-namespaces of the devices' topics; the empty text is the node's own namespace.
+    pub devices: Vec<String>,
+    /// The clutch button; none when empty.
+    pub clutch_button: Option<String>,
+}
+
+/// `device.*`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeviceSettings {
+    /// Name of the backend.
+    pub backend: String,
+    /// Frame of the device's poses.
+    pub frame_id: String,
+    /// Pose of the device's base in the scene.
+    pub scene_from_device: Pose,
+    /// Motion in the scene for each metre of motion of the device.
+    pub motion_scale: f64,
+    /// Rate of the motor loop, Hz.
+    pub rate_hz: f64,
+    /// Largest force on the hand, N.
+    pub max_force_n: f64,
+}
+
+/// `simulated.*`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SimulatedSettings {
+    /// Mass of hand and handle, kg.
+    pub mass_kg: f64,
+    /// Stiffness with which the hand follows its path, N/m.
+    pub stiffness_n_per_m: f64,
+    /// Damping to its path, N s/m.
+    pub damping_n_s_per_m: f64,
+    /// Intended press, m.
+    pub depth_m: f64,
+    /// Intended pull of the grasped surface, m.
+    pub pull_m: f64,
+    /// Intended slide along the surface, m.
+    pub slide_m: f64,
+    /// Time at one site, s.
+    pub period_s: f64,
+}
+
+/// `visualization.*`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VisualizationSettings {
+    /// Published markers, Hz.
+    pub rate_hz: f64,
+    /// Displacement of the last colour, m.
+    pub full_scale_m: f64,
+    /// Length of the force arrow, m for each N.
+    pub force_scale_m_per_n: f64,
+}
+
+/// `recording.*`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordingSettings {
+    /// Folder of the recordings.
+    pub directory: PathBuf,
+    /// Topics to record; empty means every topic of the session.
+    pub topics: Vec<String>,
+}
+
+/// `replay.*`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReplaySettings {
+    /// Recording to play.
+    pub path: Option<PathBuf>,
+    /// Speed, 1 as recorded.
+    pub rate: f64,
+}
+
+impl Scene {
+    /// Reads a parameter file.
+    ///
+    /// # Errors
+    /// See [`Parameters::from_file`] and [`Scene::from_parameters`].
+    pub fn from_file(path: &Path, reader: Reader<'_>) -> Result<Scene, SceneError> {
+        Scene::from_parameters(Parameters::from_file(path, reader)?)
+    }
+
+    /// From a node's own parameter values.
+    ///
+    /// # Errors
+    /// See [`Parameters::from_values`] and [`Scene::from_parameters`].
+    pub fn from_values(
+        values: impl IntoIterator<Item = (String, Value)>,
+        origin: crate::Origin,
+    ) -> Result<Scene, SceneError> {
+        Scene::from_parameters(Parameters::from_values(values, origin)?)
+    }
+
+    /// Puts checked values into typed groups.
+    ///
+    /// # Errors
+    /// Some but not all of the chains' required arrays are given, or their lengths differ; the mesh's path cannot be
+    /// resolved.
+    pub fn from_parameters(p: Parameters) -> Result<Scene, SceneError> {
+        Ok(Scene {
+            body: BodySettings {
+                mesh: MeshSource::resolve(&p)?,
+                scale: p.double("body.scale")?,
+                frame_id: p.text("body.frame_id")?.to_owned(),
+                scene_from_body: pose(&p, "body.pose")?,
+            },
+            chains: ChainSettings::read(&p)?,
+            surface: SurfaceSettings {
+                cutoff: p.double("surface.cutoff")?,
+                expansion: p.double("surface.expansion")?,
+                spread: parsed(&p, "surface.spread")?,
+                rate_hz: p.double("surface.rate")?,
+            },
+            probe: ProbeSettings {
+                radius_m: p.double("probe.radius")?,
+                contact_radius_m: p.double("probe.contact_radius")?,
+            },
+            grasp: GraspSettings {
+                lateral: p.double("grasp.lateral")?,
+                close_below_rad: p.double("grasp.close_below")?,
+            },
+            session: SessionSettings {
+                scene_frame_id: p.text("scene.frame_id")?.to_owned(),
+                devices: p.texts("devices")?.to_vec(),
+                clutch_button: non_empty(p.text("clutch.button")?).map(str::to_owned),
+            },
+            device: DeviceSettings {
+                backend: p.text("device.backend")?.to_owned(),
+                frame_id: p.text("device.frame_id")?.to_owned(),
+                scene_from_device: pose(&p, "device.scene_from_device")?,
+                motion_scale: p.double("device.motion_scale")?,
+                rate_hz: p.double("device.rate")?,
+                max_force_n: p.double("device.max_force")?,
+            },
+            simulated: SimulatedSettings {
+                mass_kg: p.double("simulated.mass")?,
+                stiffness_n_per_m: p.double("simulated.stiffness")?,
+                damping_n_s_per_m: p.double("simulated.damping")?,
+                depth_m: p.double("simulated.depth")?,
+                pull_m: p.double("simulated.pull")?,
+                slide_m: p.double("simulated.slide")?,
+                period_s: p.double("simulated.period")?,
+            },
+            visualization: VisualizationSettings {
+                rate_hz: p.double("visualization.rate")?,
+                full_scale_m: p.double("visualization.full_scale")?,
+                force_scale_m_per_n: p.double("visualization.force_scale")?,
+            },
+            recording: RecordingSettings {
+                directory: PathBuf::from(p.text("recording.directory")?),
+                topics: p.texts("recording.topics")?.iter().filter(|t| !t.is_empty()).cloned().collect(),
+            },
+            replay: ReplaySettings {
+                path: non_empty(p.text("replay.path")?).map(PathBuf::from),
+                rate: p.double("replay.rate")?,
+            },
+            parameters: p,
+        })
+    }
+
+    /// The values the scene was made of.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The chains, for a node that cannot do without.
+    ///
+    /// # Errors
+    /// No `chains.*` array is given.
+    pub fn required_chains(&self) -> Result<&ChainSettings, SceneError> {
+        self.chains.as_ref().ok_or_else(|| ChainSettings::missing(&self.parameters))
+    }
+
+    /// The validated model settings: contact law, surface, probe, grasp.
+    ///
+    /// # Errors
+    /// The chains are missing or not accepted by the model.
+    pub fn tissue(&self) -> Result<Tissue, SceneError> {
+        let law = self.required_chains()?.law(&self.parameters)?;
+        let surface = SurfaceParameters {
+            cutoff: self.surface.cutoff,
+            expansion: self.surface.expansion,
+            spread: self.surface.spread,
+            contact_radius_m: self.probe.contact_radius_m,
+        };
+        Ok(Tissue { law, surface, probe_radius_m: self.probe.radius_m, grasp_lateral: self.grasp.lateral })
+    }
+}
+
+fn non_empty(text: &str) -> Option<&str> {
+    (!text.is_empty()).then_some(text)
+}
+
+fn pose(p: &Parameters, name: &str) -> Result<Pose, SceneError> {
+    let numbers = p.doubles(name)?;
+    let array = <[f64; 7]>::try_from(numbers)
+        .map_err(|_| p.error(name, Problem::Model(format!("{} entries, not 7", numbers.len()))))?;
+    Pose::from_array(array).map_err(|error| p.error(name, Problem::Model(error.to_string())))
+}
+
+/// A word that the schema has checked, as the model's type.
+pub(crate) fn parsed<T: std::str::FromStr<Err: std::fmt::Display>>(
+    p: &Parameters,
+    name: &str,
+) -> Result<T, SceneError> {
+    p.text(name)?.parse().map_err(|error: T::Err| p.error(name, Problem::Model(error.to_string())))
+}
