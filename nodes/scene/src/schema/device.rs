@@ -4,6 +4,7 @@ use super::{Check, DefaultValue, Kind, Length, Node, ParameterSpec};
 
 const DRIVER: &[Node] = &[Node::HapticDevice];
 const DRIVER_AND_MODEL: &[Node] = &[Node::HapticDevice, Node::Deformation];
+const EVERYBODY: &[Node] = &[Node::HapticDevice, Node::Deformation, Node::Visualization];
 
 pub(super) const PARAMETERS: &[ParameterSpec] = &[
     ParameterSpec {
@@ -25,7 +26,7 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         check: Check::FrameId,
         length: Length::Any,
         live: false,
-        owners: DRIVER_AND_MODEL,
+        owners: EVERYBODY,
         help: "Frame of the device's poses; a leading / keeps the name out of the node's namespace.",
     },
     ParameterSpec {
@@ -36,7 +37,7 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         check: Check::Pose,
         length: Length::Exactly(7),
         live: false,
-        owners: DRIVER_AND_MODEL,
+        owners: EVERYBODY,
         help: "Pose of the device's base in the scene frame: x y z qx qy qz qw.",
     },
     ParameterSpec {
