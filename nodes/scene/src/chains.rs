@@ -1,6 +1,6 @@
 //! `chains.*`: one array entry for each parallel chain, put together into chains.
 
-use rhombus_chain::{ChainParameters, ContactLaw, Formulation};
+use rhombus_chain::{ChainParameters, ContactLaw, Formulation, ParameterError};
 
 use crate::scene::parsed;
 use crate::{Parameters, Problem, SceneError};
@@ -54,7 +54,7 @@ impl ChainSettings {
         };
         let pitch = match p.is_given("chains.pitch") {
             true => number("chains.pitch")?,
-            false => rod_length.iter().zip(&angle).map(|(a, theta)| 2.0 * a * theta.cos()).collect(),
+            false => rod_length.iter().zip(&angle).map(|(a, theta)| 2.0 * a * libm::cos(*theta)).collect(),
         };
         let chains = (0..count)
             .map(|i| ChainParameters {
@@ -74,20 +74,32 @@ impl ChainSettings {
 
     /// The contact law, validated by the model.
     pub(crate) fn law(&self, p: &Parameters) -> Result<ContactLaw, SceneError> {
-        ContactLaw::new(self.formulation, &self.chains).map_err(|error| {
-            let message = error.to_string();
-            // The model names the parameters; the line is that of the first one it names.
-            let named = REQUIRED.into_iter().chain(OPTIONAL).filter(|name| message.contains(name));
-            match named.min_by_key(|name| message.find(name)) {
-                Some(name) => p.error(name, Problem::Model(message)),
-                None => p.error("chains", Problem::Model(message)),
-            }
-        })
+        ContactLaw::new(self.formulation, &self.chains)
+            .map_err(|error| p.error(blamed(&error), Problem::Model(error.to_string())))
     }
 
     pub(crate) fn missing(p: &Parameters) -> SceneError {
         let accepted = format!("the arrays {}, or one of the tissues in config/", REQUIRED.join(", "));
         p.error("chains", Problem::Missing { accepted })
+    }
+}
+
+/// The parameter whose line a message points at.
+fn blamed(error: &ParameterError) -> &'static str {
+    match error {
+        ParameterError::ChainOutOfRange { name, .. } => {
+            let named =
+                REQUIRED.into_iter().chain(OPTIONAL).find(|full| full.strip_prefix("chains.") == Some(name));
+            named.unwrap_or("chains")
+        }
+        ParameterError::WeightSum { .. } => "chains.weight",
+        ParameterError::TangentialOverflow { .. } => "chains.tangential_growth",
+        ParameterError::SnapsThrough { .. } | ParameterError::NotRising { .. } => {
+            "chains.tangential_stiffness"
+        }
+        ParameterError::UnknownWord { name, .. } | ParameterError::SurfaceOutOfRange { name, .. } => name,
+        ParameterError::UnitsOutOfRange { .. } => "chains.units",
+        _ => "chains",
     }
 }
 

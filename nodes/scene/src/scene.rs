@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use rhombus_chain::{Pose, Spread, SurfaceParameters, Tissue};
+use rhombus_chain::{ContactLaw, Pose, Spread, SurfaceParameters};
 
 use crate::{BodyKind, ChainSettings, Parameters, Problem, Reader, SceneError, Value};
 
 /// A validated scene. Every value has been checked against the schema; what depends on several values has been
 /// checked too, except the chains and the mesh, which only the nodes that use them build:
-/// [`Scene::tissue`], [`Scene::load_body`].
+/// [`Scene::law`].
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// What is touched.
@@ -139,12 +139,16 @@ pub struct SimulatedSettings {
 /// `visualization.*`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VisualizationSettings {
-    /// Published markers, Hz.
+    /// Published markers, Hz; 0 publishes none.
     pub rate_hz: f64,
     /// Displacement of the last colour, m.
     pub full_scale_m: f64,
+    /// Displacements are drawn this many times as large.
+    pub displacement_scale: f64,
     /// Length of the force arrow, m for each N.
     pub force_scale_m_per_n: f64,
+    /// Draw the chains at each contact.
+    pub show_chains: bool,
 }
 
 /// `recording.*`.
@@ -238,7 +242,9 @@ impl Scene {
             visualization: VisualizationSettings {
                 rate_hz: p.double("visualization.rate")?,
                 full_scale_m: p.double("visualization.full_scale")?,
+                displacement_scale: p.double("visualization.displacement_scale")?,
                 force_scale_m_per_n: p.double("visualization.force_scale")?,
+                show_chains: p.bool("visualization.show_chains")?,
             },
             recording: RecordingSettings {
                 directory: PathBuf::from(p.text("recording.directory")?),
@@ -265,19 +271,22 @@ impl Scene {
         self.chains.as_ref().ok_or_else(|| ChainSettings::missing(&self.parameters))
     }
 
-    /// The validated model settings: contact law, surface, probe, grasp.
+    /// The contact law, validated by the model.
     ///
     /// # Errors
     /// The chains are missing or not accepted by the model.
-    pub fn tissue(&self) -> Result<Tissue, SceneError> {
-        let law = self.required_chains()?.law(&self.parameters)?;
-        let surface = SurfaceParameters {
+    pub fn law(&self) -> Result<ContactLaw, SceneError> {
+        self.required_chains()?.law(&self.parameters)
+    }
+
+    /// What the surface around a contact is computed from, besides the law.
+    pub fn surface_parameters(&self) -> SurfaceParameters {
+        SurfaceParameters {
             cutoff: self.surface.cutoff,
             expansion: self.surface.expansion,
             spread: self.surface.spread,
             contact_radius_m: self.probe.contact_radius_m,
-        };
-        Ok(Tissue { law, surface, probe_radius_m: self.probe.radius_m, grasp_lateral: self.grasp.lateral })
+        }
     }
 }
 
