@@ -12,6 +12,7 @@
 
 if [ -z "${BASH_VERSION:-}" ]; then
   echo "ros2_env: source this file from bash" >&2
+  # shellcheck disable=SC2317 # exit is for sh launch/ros2_env.sh
   return 1 2>/dev/null || exit 1
 fi
 if [ "${BASH_SOURCE[0]}" = "$0" ]; then
