@@ -1,7 +1,9 @@
 //! The contact law of a body: parallel chains on one contact point (MODEL section 3). Same depth, forces add.
 
 use crate::chain::{Chain, finite};
-use crate::parameters::{ChainParameters, Formulation, ParameterError, WEIGHT_TOLERANCE};
+use crate::closed_form::Law;
+use crate::parameter_error::ParameterError;
+use crate::parameters::{ChainParameters, Formulation, WEIGHT_TOLERANCE};
 
 /// One or more validated chains in parallel. Nothing in it changes; every query is RT safe.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,9 +11,17 @@ pub struct ContactLaw {
     formulation: Formulation,
     chains: Vec<Chain>,
     rest_stiffness_n_per_m: f64,
-    /// Elongations outside of which every chain is past its guard, so that the law is a straight line.
-    straight_below_m: f64,
-    straight_above_m: f64,
+    /// Past the outermost compression guard and past the outermost extension guard every chain is continued.
+    below: StraightLine,
+    above: StraightLine,
+}
+
+/// The whole law past an outermost guard, in the paper's signs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct StraightLine {
+    from_m: f64,
+    force_n: f64,
+    slope_n_per_m: f64,
 }
 
 /// Answer of a contact law to a depth.
@@ -71,9 +81,13 @@ impl ContactLaw {
             return Err(ParameterError::WeightSum { chains: chains.len(), sum });
         }
         let rest_stiffness_n_per_m = chains.iter().map(Chain::rest_stiffness_n_per_m).sum();
-        let straight_below_m = chains.iter().map(|chain| chain.guarded_range_m().0).fold(0.0, f64::min);
-        let straight_above_m = chains.iter().map(|chain| chain.guarded_range_m().1).fold(0.0, f64::max);
-        Ok(Self { formulation, chains, rest_stiffness_n_per_m, straight_below_m, straight_above_m })
+        Ok(Self {
+            formulation,
+            rest_stiffness_n_per_m,
+            below: StraightLine::below(&chains),
+            above: StraightLine::above(&chains),
+            chains,
+        })
     }
 
     /// The force on the hand at a depth, positive into the body. RT safe, closed form.
@@ -86,9 +100,10 @@ impl ContactLaw {
         if !depth_m.is_finite() {
             return Err(NonFinite { quantity: "depth_m", value: depth_m });
         }
-        let mut response = self.at_elongation(elongation_m(depth_m));
-        response.force_n = 0.0 - response.force_n;
-        Ok(response)
+        let elongation_m = elongation_m(depth_m);
+        let Law { force_n, stiffness_n_per_m, energy_j } = sum_of_laws(&self.chains, elongation_m);
+        let saturated = self.chains.iter().any(|chain| chain.is_saturated(elongation_m));
+        Ok(LawResponse { force_n: 0.0 - force_n, stiffness_n_per_m, energy_j, saturated })
     }
 
     /// The depth at which the hand feels `force_n` (positive pushes out). RT safe: bounded, no allocation.
@@ -102,39 +117,32 @@ impl ContactLaw {
             return Err(NonFinite { quantity: "force_n", value: force_n }.into());
         }
         let target_n = 0.0 - force_n;
-        let below = self.at_elongation(self.straight_below_m);
-        let above = self.at_elongation(self.straight_above_m);
-        let elongation_m = if target_n <= below.force_n {
-            self.straight_below_m
-                + (target_n - below.force_n) / self.slope_beyond(self.straight_below_m, -1.0)
-        } else if target_n >= above.force_n {
-            self.straight_above_m + (target_n - above.force_n) / self.slope_beyond(self.straight_above_m, 1.0)
+        let elongation_m = if target_n <= self.below.force_n {
+            self.below.elongation_m(target_n)
+        } else if target_n >= self.above.force_n {
+            self.above.elongation_m(target_n)
         } else {
             self.elongation_between(target_n)
         };
         if elongation_m.is_finite() {
             return Ok(0.0 - elongation_m);
         }
-        let largest_n = finite(self.at_elongation(finite(elongation_m)).force_n);
-        Err(ForceError::OutOfReach { force_n, largest_n: 0.0 - largest_n })
+        let largest_n = 0.0 - sum_of_laws(&self.chains, finite(elongation_m)).force_n;
+        Err(ForceError::OutOfReach { force_n, largest_n })
     }
 
-    /// The slope of the straight line that begins at an outermost guard, N/m.
-    fn slope_beyond(&self, guard_m: f64, direction: f64) -> f64 {
-        self.at_elongation(guard_m + direction * guard_m.abs()).stiffness_n_per_m
-    }
-
-    /// Newton's method from the rest stiffness, inside a bracket that every step narrows; a step that leaves the bracket is
-    /// replaced by its middle. The law rises, so there is one root.
+    /// Newton's method from the rest stiffness, in a bracket that every step narrows. A step that leaves the bracket or
+    /// does not halve the error is followed by a halving of the bracket. The law rises, so there is one root.
     fn elongation_between(&self, target_n: f64) -> f64 {
-        /// Newton needs under ten; halving alone ends within the digits of f64 after about a hundred for any tissue.
+        /// Newton needs under ten. Halving the whole range of f64 down to neighbours takes about 2100.
         const MOST_STEPS: usize = 2200;
         let tolerance_n = 1e-13 * target_n.abs().max(1e-9 * self.rest_stiffness_n_per_m);
-        let (mut low_m, mut high_m) = (self.straight_below_m, self.straight_above_m);
+        let (mut low_m, mut high_m) = (self.below.from_m, self.above.from_m);
         let mut elongation_m = (target_n / self.rest_stiffness_n_per_m).clamp(low_m, high_m);
+        let mut previous_error_n = f64::INFINITY;
         for _ in 0..MOST_STEPS {
-            let response = self.at_elongation(elongation_m);
-            let error_n = response.force_n - target_n;
+            let Law { force_n, stiffness_n_per_m, .. } = sum_of_laws(&self.chains, elongation_m);
+            let error_n = force_n - target_n;
             if error_n.abs() <= tolerance_n {
                 break;
             }
@@ -143,31 +151,16 @@ impl ContactLaw {
             } else {
                 high_m = elongation_m;
             }
-            let newton_m = elongation_m - error_n / response.stiffness_n_per_m;
-            let next_m =
-                if newton_m > low_m && newton_m < high_m { newton_m } else { 0.5 * (low_m + high_m) };
+            let newton_m = elongation_m - error_n / stiffness_n_per_m;
+            let converges = newton_m > low_m && newton_m < high_m && error_n.abs() <= 0.5 * previous_error_n;
+            let next_m = if converges { newton_m } else { 0.5 * (low_m + high_m) };
             if next_m == elongation_m {
                 break;
             }
+            previous_error_n = error_n.abs();
             elongation_m = next_m;
         }
         elongation_m
-    }
-
-    /// In the paper's sign: `F(DL)`.
-    #[inline]
-    fn at_elongation(&self, elongation_m: f64) -> LawResponse {
-        let mut sum = LawResponse { force_n: 0.0, stiffness_n_per_m: 0.0, energy_j: 0.0, saturated: false };
-        for chain in &self.chains {
-            let law = chain.law(elongation_m);
-            sum.force_n += law.force_n;
-            sum.stiffness_n_per_m += law.stiffness_n_per_m;
-            sum.energy_j += law.energy_j;
-            sum.saturated |= law.saturated;
-        }
-        sum.force_n = finite(sum.force_n);
-        sum.energy_j = finite(sum.energy_j);
-        sum
     }
 
     /// The formulation of every chain.
@@ -184,6 +177,37 @@ impl ContactLaw {
     pub fn rest_stiffness_n_per_m(&self) -> f64 {
         self.rest_stiffness_n_per_m
     }
+}
+
+impl StraightLine {
+    fn below(chains: &[Chain]) -> Self {
+        let from_m = chains.iter().map(|chain| chain.guarded_range_m().0).fold(0.0, f64::min);
+        let slope_n_per_m = chains.iter().map(|chain| chain.continued_stiffness_n_per_m().0).sum();
+        Self { from_m, force_n: sum_of_laws(chains, from_m).force_n, slope_n_per_m }
+    }
+
+    fn above(chains: &[Chain]) -> Self {
+        let from_m = chains.iter().map(|chain| chain.guarded_range_m().1).fold(0.0, f64::max);
+        let slope_n_per_m = chains.iter().map(|chain| chain.continued_stiffness_n_per_m().1).sum();
+        Self { from_m, force_n: sum_of_laws(chains, from_m).force_n, slope_n_per_m }
+    }
+
+    fn elongation_m(&self, target_n: f64) -> f64 {
+        self.from_m + (target_n - self.force_n) / self.slope_n_per_m
+    }
+}
+
+/// Same elongation, forces add; in the paper's signs.
+#[inline]
+fn sum_of_laws(chains: &[Chain], elongation_m: f64) -> Law {
+    let mut sum = Law { force_n: 0.0, stiffness_n_per_m: 0.0, energy_j: 0.0 };
+    for chain in chains {
+        let law = chain.law(elongation_m);
+        sum.force_n += law.force_n;
+        sum.stiffness_n_per_m += law.stiffness_n_per_m;
+        sum.energy_j += law.energy_j;
+    }
+    Law { force_n: finite(sum.force_n), energy_j: finite(sum.energy_j), ..sum }
 }
 
 /// `DL` of a depth; a zero depth is the positive zero.

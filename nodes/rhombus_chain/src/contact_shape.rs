@@ -10,7 +10,8 @@
 
 use crate::chain::Chain;
 use crate::contact_law::{ContactLaw, NonFinite, elongation_m};
-use crate::parameters::{ParameterError, SurfaceParameters};
+use crate::parameter_error::ParameterError;
+use crate::parameters::SurfaceParameters;
 
 /// The field of one contact at its present depth. Made once; afterwards nothing allocates.
 #[derive(Debug, Clone, PartialEq)]

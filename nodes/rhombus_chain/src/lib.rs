@@ -6,9 +6,11 @@
 //! of a contact is on the hand, positive outwards; a chain itself speaks the paper's `DL`, `dl_1`, `F`, negative when pressed.
 
 mod chain;
+mod closed_form;
 mod contact_law;
 mod contact_shape;
 mod double_double;
+mod parameter_error;
 mod parameters;
 mod pose;
 mod sums;
@@ -17,5 +19,6 @@ mod unit;
 pub use chain::{Chain, ChainResponse};
 pub use contact_law::{ContactLaw, ForceError, LawResponse, NonFinite};
 pub use contact_shape::{ContactShape, Displacement};
-pub use parameters::{ChainParameters, Formulation, ParameterError, Spread, SurfaceParameters};
+pub use parameter_error::ParameterError;
+pub use parameters::{ChainParameters, Formulation, Spread, SurfaceParameters};
 pub use pose::{Pose, PoseError};

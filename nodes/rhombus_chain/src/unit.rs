@@ -1,10 +1,10 @@
 //! One rhombus unit: four rods, two diagonals. Equations (4) to (9) of the paper.
 //!
 //! A unit of any size is described by its *stretch* `e = dl / (2 a) = sin x - sin theta`, which all units of a chain share.
-//! With the sine known, everything below is algebra: no transcendental function is called, and nothing cancels for
-//! a small stretch or for an angle close to either end of (0, pi/2).
+//! With the sine known, everything the force needs is algebra: no transcendental function is called, and nothing cancels
+//! for a small stretch or for an angle close to either end of (0, pi/2).
 
-/// A unit's rest angle, prepared.
+/// A unit at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rhombus {
     pub(crate) sine: f64,
@@ -25,7 +25,7 @@ pub(crate) struct StretchedRhombus {
     /// `t = tan(theta + d_theta/2)`, so that `dw = -t dl` (7).
     pub(crate) mean_tangent: f64,
     /// `cos x + cos theta`.
-    cosines: f64,
+    pub(crate) cosines: f64,
 }
 
 impl Rhombus {
@@ -49,28 +49,39 @@ impl Rhombus {
         StretchedRhombus { stretch, sine, cosine, mean_tangent: (self.sine + sine) / cosines, cosines }
     }
 
-    /// The stretch at which `cos x` has the given value in `[0, 1]`, `x` in `[0, pi/2]`.
-    pub(crate) fn stretch_at_cosine(&self, cosine: f64) -> f64 {
-        let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
-        // sin x - sin theta, as the difference of the two distances from 1.
-        self.largest_stretch - cosine * cosine / (1.0 + sine)
+    /// The stretch at which `x` has this cosine and this `1 - cos x`; two numbers, so that the
+    /// difference of the sines keeps its digits at both ends of `[0, pi/2]`.
+    pub(crate) fn stretch_at(&self, cosine: f64, versine: f64) -> f64 {
+        const STEEP: f64 = 0.7;
+        let sine = (versine * (1.0 + cosine)).sqrt();
+        if sine < STEEP { sine - self.sine } else { self.largest_stretch - cosine * cosine / (1.0 + sine) }
     }
 }
 
 impl StretchedRhombus {
-    pub(crate) const UNSET: Self =
-        Self { stretch: 0.0, sine: 0.0, cosine: 1.0, mean_tangent: 0.0, cosines: 2.0 };
-
     /// `tan x`.
     #[inline]
     pub(crate) fn tangent(&self) -> f64 {
         self.sine / self.cosine
     }
 
-    /// `d_theta = asin(sin theta + e) - theta`, from `tan(d_theta/2) = (sin x - sin theta) / (cos x + cos theta)`.
+    /// `tan(d_theta/2) = (sin x - sin theta) / (cos x + cos theta)`.
+    #[inline]
+    fn half_turn_tangent(&self) -> f64 {
+        self.stretch / self.cosines
+    }
+
+    /// `d_theta = asin(sin theta + e) - theta`.
     #[inline]
     pub(crate) fn d_theta(&self) -> f64 {
-        2.0 * libm::atan(self.stretch / self.cosines)
+        2.0 * libm::atan(self.half_turn_tangent())
+    }
+
+    /// `sin(d_theta)`.
+    #[inline]
+    pub(crate) fn turn_sine(&self) -> f64 {
+        let half = self.half_turn_tangent();
+        2.0 * half / (1.0 + half * half)
     }
 
     /// `sin(d_theta) - d_theta`, by its series where the difference would lose digits.
@@ -78,11 +89,11 @@ impl StretchedRhombus {
     pub(crate) fn sine_excess(&self) -> f64 {
         const SERIES_UP_TO_RAD: f64 = 0.5;
         let d_theta = self.d_theta();
-        let square = d_theta * d_theta;
         if d_theta.abs() > SERIES_UP_TO_RAD {
             return libm::sin(d_theta) - d_theta;
         }
         // -d^3/3! (1 - d^2/(4*5) (1 - d^2/(6*7) (...)))
+        let square = d_theta * d_theta;
         let mut series = 1.0;
         for divisor in [210.0, 156.0, 110.0, 72.0, 42.0, 20.0] {
             series = 1.0 - square / divisor * series;
