@@ -1,1 +1,35 @@
-//! Placeholder.
+//! What every node shares and nothing else: start and shutdown, parameters, log, diagnostics, topics, frames.
+//!
+//! The only library that touches r2r, so that its traps are known in one place:
+//! queues of ten that keep the oldest ([`Inbox`]), no parameter arrays or ranges (`parameters`), no `/rosout`
+//! ([`Log`]), no signal handling ([`Shutdown`]), a panic for a bad command line (`context`), fixed-size arrays that
+//! panic when published ([`convert`]).
+
+mod arguments;
+mod context;
+pub mod convert;
+mod diagnostics;
+mod error;
+pub mod frames;
+mod kit;
+mod log;
+mod parameters;
+mod run;
+mod security;
+mod shutdown;
+mod tf;
+pub mod topics;
+mod wire;
+
+pub use diagnostics::{Level, Status};
+pub use error::{PublishError, StartError};
+pub use frames::FrameTree;
+pub use kit::NodeKit;
+pub use log::{Log, Throttle};
+pub use parameters::{Change, TogetherCheck};
+pub use run::run;
+pub use scene::Node;
+pub use security::SecurityValueError;
+pub use shutdown::Shutdown;
+pub use tf::{TransformListener, transform_stamped};
+pub use wire::{Inbox, Publisher};

@@ -1,0 +1,216 @@
+//! One ROS node with everything that all nodes share.
+
+use std::time::Duration;
+
+use r2r::{QosProfile, WrappedTypesupport};
+use scene::{Node, Parameters, Value};
+
+use crate::arguments::RosArguments;
+use crate::diagnostics::{Diagnostics, Status};
+use crate::log::Log;
+use crate::parameters::{self, Change, ParameterServices, Store, TogetherCheck};
+use crate::security::Transport;
+use crate::topics::Topic;
+use crate::{Inbox, PublishError, Publisher, Shutdown, StartError, context, convert, frames, shutdown};
+
+/// Longest wait of one turn. A spin cannot be interrupted, so this bounds how late a signal is seen.
+const LONGEST_WAIT: Duration = Duration::from_millis(50);
+
+/// A node that has started: named, its parameters checked and served, its log and diagnostics published.
+///
+/// One thread owns it and calls [`NodeKit::spin_once`] in a loop. r2r has no executor: a spin moves at most one message
+/// of each subscription into that subscription's [`Inbox`], and an inbox holds ten messages and then drops the
+/// *newest*. So: spin once, empty every inbox, answer, repeat.
+pub struct NodeKit {
+    // Before `node`: publishers must not outlive it in use.
+    services: ParameterServices,
+    diagnostics: Diagnostics,
+    log: Log,
+    store: Store,
+    shutdown: Shutdown,
+    full_name: String,
+    namespace: String,
+    node: r2r::Node,
+}
+
+impl NodeKit {
+    /// Start the node: check the parameters, join the graph, serve the parameters.
+    ///
+    /// # Errors
+    /// The one reason why it cannot start, with file and key where a parameter is to blame. Nothing stays behind.
+    pub fn start(kind: Node) -> Result<NodeKit, StartError> {
+        let transport = Transport::from_environment()?;
+        let arguments = RosArguments::from_process();
+        parameters::check_files(&arguments, kind)?;
+        let shutdown = Shutdown::install().map_err(StartError::Signals)?;
+        let context = context::create()?;
+        let mut node = r2r::Node::create(context, kind.name(), "")
+            .map_err(|source| StartError::Node { name: kind.name(), source })?;
+        shutdown::exit_on_panic();
+
+        let values = parameters::read(&node, &arguments)?;
+        if values.bool("use_sim_time")? {
+            let time_source = node.get_time_source();
+            time_source.enable_sim_time(&mut node).map_err(StartError::SimTime)?;
+        }
+        let unnamed = |source| StartError::Node { name: kind.name(), source };
+        let full_name = node.fully_qualified_name().map_err(unnamed)?;
+        let namespace = node.namespace().map_err(unnamed)?;
+        let least = arguments.severity_of(node.logger());
+        let log = Log::new(&mut node, least)?;
+        let services = ParameterServices::new(&mut node)?;
+        let diagnostics = Diagnostics::new(&mut node, &full_name)?;
+        let store = Store::new(kind, values);
+        services.announce(convert::now(&node.get_ros_clock()), &full_name, &store);
+        log.info(&format!(
+            "{full_name} starts with parameters from {}; {}",
+            arguments.source(),
+            transport.in_words()
+        ));
+        Ok(NodeKit { services, diagnostics, log, store, shutdown, full_name, namespace, node })
+    }
+
+    /// "/left/deformation".
+    pub fn full_name(&self) -> &str {
+        &self.full_name
+    }
+
+    /// "/left"; "/" for none.
+    pub fn namespace(&self) -> &str {
+        &self.namespace
+    }
+
+    /// The frame a parameter names; see [`frames::frame_id`].
+    pub fn frame_id(&self, parameter: &str) -> String {
+        frames::frame_id(&self.namespace, parameter)
+    }
+
+    /// The parameters' present values, checked.
+    pub fn parameters(&self) -> &Parameters {
+        self.store.values()
+    }
+
+    /// What else must hold for parameters that are set while the node runs, beyond each one's own range. The error is
+    /// the reason that the caller of the service reads.
+    pub fn check_changes(&mut self, check: TogetherCheck) {
+        self.store.check_together(check);
+    }
+
+    /// Show the value that a parameter without a constant default got because nobody gave it.
+    ///
+    /// # Errors
+    /// The schema does not accept the value.
+    pub fn show_computed(&mut self, name: &str, value: Value) -> Result<(), StartError> {
+        Ok(self.store.set_computed(name, value)?)
+    }
+
+    /// The node's log.
+    pub fn log(&self) -> &Log {
+        &self.log
+    }
+
+    /// Whether the process was asked to end; clones can be watched from other threads.
+    pub fn shutdown(&self) -> &Shutdown {
+        &self.shutdown
+    }
+
+    /// False from the first SIGINT or SIGTERM on.
+    pub fn is_running(&self) -> bool {
+        !self.shutdown.is_requested()
+    }
+
+    /// Make a publisher. `sub_namespace` is a device's name for topics of a device, else "".
+    ///
+    /// # Errors
+    /// rcl refuses, for instance because the name is none.
+    pub fn publish<M>(&mut self, topic: &Topic<M>, sub_namespace: &str) -> Result<Publisher<M>, StartError>
+    where
+        M: WrappedTypesupport + 'static,
+    {
+        Publisher::new(&mut self.node, topic, sub_namespace)
+    }
+
+    /// Make a subscription. `sub_namespace` is a device's name for topics of a device, else "".
+    ///
+    /// # Errors
+    /// rcl refuses, for instance because the name is none.
+    pub fn subscribe<M>(&mut self, topic: &Topic<M>, sub_namespace: &str) -> Result<Inbox<M>, StartError>
+    where
+        M: WrappedTypesupport + Send + 'static,
+    {
+        let name = topic.name_in(sub_namespace);
+        match self.node.subscribe::<M>(&name, topic.qos()) {
+            Ok(stream) => Ok(Inbox::new(stream)),
+            Err(source) => Err(StartError::Endpoint { what: "subscription", name, source }),
+        }
+    }
+
+    /// Subscribe to serialized messages (CDR) of a type given as "package/msg/Name", for recording.
+    ///
+    /// # Errors
+    /// rcl refuses, or the type is not one of those built in.
+    pub fn subscribe_raw(
+        &mut self,
+        name: &str,
+        message_type: &str,
+        qos: QosProfile,
+    ) -> Result<Inbox<Vec<u8>>, StartError> {
+        match self.node.subscribe_raw(name, message_type, qos) {
+            Ok(stream) => Ok(Inbox::new(stream)),
+            Err(source) => Err(StartError::Endpoint { what: "subscription", name: name.to_owned(), source }),
+        }
+    }
+
+    /// Make a publisher for serialized messages (CDR) of a type given as "package/msg/Name", for replay.
+    ///
+    /// # Errors
+    /// rcl refuses, or the type is not one of those built in.
+    pub fn publish_raw(
+        &mut self,
+        name: &str,
+        message_type: &str,
+        qos: QosProfile,
+    ) -> Result<r2r::PublisherUntyped, StartError> {
+        let made = self.node.create_publisher_untyped(name, message_type, qos);
+        made.map_err(|source| StartError::Endpoint { what: "publisher", name: name.to_owned(), source })
+    }
+
+    /// The r2r node, for what this type does not wrap (graph queries).
+    pub fn node(&mut self) -> &mut r2r::Node {
+        &mut self.node
+    }
+
+    /// One turn: wait for messages (at most `timeout`, at most 50 ms), move one of each subscription into its inbox,
+    /// serve the parameters. What was set since the last turn.
+    pub fn spin_once(&mut self, timeout: Duration) -> Vec<Change> {
+        self.node.spin_once(timeout.min(LONGEST_WAIT));
+        let changes = self.services.serve(&mut self.store);
+        if !changes.is_empty() {
+            self.services.tell(convert::now(&self.node.get_ros_clock()), &self.full_name, &changes);
+        }
+        changes
+    }
+
+    /// True once a second: time for [`NodeKit::publish_diagnostics`].
+    pub fn diagnostics_due(&mut self) -> bool {
+        self.diagnostics.is_due()
+    }
+
+    /// Publish the node's health. Besides once a second, a node may do this whenever its state changes.
+    ///
+    /// # Errors
+    /// The message was not sent.
+    pub fn publish_diagnostics(&self, statuses: Vec<Status>) -> Result<(), PublishError> {
+        self.diagnostics.publish(statuses)
+    }
+
+    /// Say that everything is set up: a line "ready: ..." that session scripts wait for, whatever the log level is.
+    pub fn ready(&self, text: &str) {
+        self.log.announce(&format!("ready: {text}"));
+    }
+
+    /// Say what the node has done: a line "closing report: {json}" that session scripts read, whatever the log level.
+    pub fn closing_report(&self, report: &serde_json::Value) {
+        self.log.announce(&format!("closing report: {report}"));
+    }
+}

@@ -1,0 +1,95 @@
+//! Topic names, message types and quality of service: the one place where they are written down.
+//!
+//! Names are relative, so a node's namespace and remappings apply. Topics of a device stand in the device's
+//! sub-namespace when one node serves several devices ("left/measured_cp").
+//!
+//! Three kinds of queue. What must all arrive, in order: reliable, 1000 deep on both sides. What is only interesting
+//! while fresh: reliable, a few deep, so that it can also be recorded. What a late joiner needs: transient local.
+
+use std::marker::PhantomData;
+
+use r2r::QosProfile;
+use r2r::diagnostic_msgs::msg::DiagnosticArray;
+use r2r::geometry_msgs::msg::{PoseStamped, TwistStamped, WrenchStamped};
+use r2r::rcl_interfaces::msg::{Log, ParameterEvent};
+use r2r::rhombus_haptics_msgs::msg::{ContactLaw, ContactState, SurfaceDisplacement};
+use r2r::sensor_msgs::msg::{JointState, Joy};
+use r2r::shape_msgs::msg::Mesh;
+use r2r::std_msgs::msg::Bool;
+use r2r::tf2_msgs::msg::TFMessage;
+use r2r::visualization_msgs::msg::MarkerArray;
+
+/// A topic: name, message type and quality of service for both ends.
+pub struct Topic<M> {
+    name: &'static str,
+    qos: QosProfile,
+    message: PhantomData<fn() -> M>,
+}
+
+impl<M> Topic<M> {
+    const fn new(name: &'static str, qos: QosProfile) -> Topic<M> {
+        Topic { name, qos, message: PhantomData }
+    }
+
+    /// The name as nodes know it before namespaces and remappings.
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The name in the sub-namespace of one device; "" is the node's own namespace.
+    pub fn name_in(&self, sub_namespace: &str) -> String {
+        match sub_namespace.trim_end_matches('/') {
+            "" => self.name.to_owned(),
+            sub_namespace => format!("{sub_namespace}/{}", self.name),
+        }
+    }
+
+    /// Quality of service, the same for publishers and subscriptions.
+    pub fn qos(&self) -> QosProfile {
+        self.qos.clone()
+    }
+}
+
+const fn reliable(depth: usize) -> QosProfile {
+    QosProfile::default().keep_last(depth).reliable().volatile()
+}
+
+const fn latched(depth: usize) -> QosProfile {
+    QosProfile::default().keep_last(depth).reliable().transient_local()
+}
+
+/// Pose of the device's handle: device to deformation.
+pub const MEASURED_CP: Topic<PoseStamped> = Topic::new("measured_cp", reliable(1000));
+/// Velocity of the device's handle: device.
+pub const MEASURED_CV: Topic<TwistStamped> = Topic::new("measured_cv", reliable(100));
+/// Force that the motors were told to apply: device.
+pub const MEASURED_CF: Topic<WrenchStamped> = Topic::new("measured_cf", reliable(100));
+/// Opening of the gripper in position\[0\], rad: device to deformation.
+pub const GRIPPER_MEASURED_JS: Topic<JointState> = Topic::new("gripper/measured_js", reliable(100));
+/// Hold the surface while true: anyone to deformation.
+pub const GRASP: Topic<Bool> = Topic::new("grasp", reliable(10));
+/// Clutch in buttons\[0\] (0 released, 1 pressed): device to deformation.
+pub const CLUTCH: Topic<Joy> = Topic::new("clutch", latched(10));
+/// Force on the hand, one for each pose, with the pose's stamp and frame: deformation to device.
+pub const SERVO_CF: Topic<WrenchStamped> = Topic::new("servo_cf", reliable(1000));
+/// What the device's motor loop needs until the next force: deformation to device.
+pub const CONTACT_LAW: Topic<ContactLaw> = Topic::new("contact_law", reliable(10));
+/// The contact, one for each pose: deformation.
+pub const CONTACT_STATE: Topic<ContactState> = Topic::new("contact_state", reliable(1000));
+/// How far the surface is from rest: deformation, at `surface.rate`.
+pub const SURFACE_DISPLACEMENT: Topic<SurfaceDisplacement> = Topic::new("surface_displacement", reliable(10));
+/// The rest surface: deformation, latched.
+pub const BODY_MESH: Topic<Mesh> = Topic::new("body_mesh", latched(1));
+/// What RViz draws: visualization.
+pub const MARKERS: Topic<MarkerArray> = Topic::new("markers", reliable(10));
+/// Health of every node at 1 Hz.
+pub const DIAGNOSTICS: Topic<DiagnosticArray> = Topic::new("/diagnostics", reliable(10));
+/// Log lines of every node.
+pub const ROSOUT: Topic<Log> = Topic::new("/rosout", latched(1000));
+/// Changes of parameters of every node.
+pub const PARAMETER_EVENTS: Topic<ParameterEvent> =
+    Topic::new("/parameter_events", QosProfile::parameter_events());
+/// Transforms that move.
+pub const TF: Topic<TFMessage> = Topic::new("/tf", reliable(100));
+/// Transforms that stay.
+pub const TF_STATIC: Topic<TFMessage> = Topic::new("/tf_static", latched(100));

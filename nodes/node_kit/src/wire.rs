@@ -1,0 +1,67 @@
+//! Publishers and subscriptions with the topic's name in every error, and without r2r's queue trap.
+//!
+//! The trap: between rcl and the reader r2r puts a queue of ten messages that, when full, drops the *newest* one,
+//! whatever the depth of the subscription. One spin moves at most one message of each subscription into it, so a node
+//! that spins once and then empties every [`Inbox`] never loses one: what waits, waits in rcl's own queue.
+
+use futures::{FutureExt, Stream, StreamExt};
+use r2r::WrappedTypesupport;
+
+use crate::topics::Topic;
+use crate::{PublishError, StartError};
+
+/// The sending end of a topic. A clone may be moved to another thread; it stops working when the node is gone.
+#[derive(Clone)]
+pub struct Publisher<M: WrappedTypesupport + 'static> {
+    topic: String,
+    publisher: r2r::Publisher<M>,
+}
+
+impl<M: WrappedTypesupport + 'static> Publisher<M> {
+    pub(crate) fn new(
+        node: &mut r2r::Node,
+        topic: &Topic<M>,
+        sub_namespace: &str,
+    ) -> Result<Publisher<M>, StartError> {
+        let name = topic.name_in(sub_namespace);
+        match node.create_publisher(&name, topic.qos()) {
+            Ok(publisher) => Ok(Publisher { topic: name, publisher }),
+            Err(source) => Err(StartError::Endpoint { what: "publisher", name, source }),
+        }
+    }
+
+    /// Send one message. Allocates; not for a motor loop.
+    pub fn publish(&self, message: &M) -> Result<(), PublishError> {
+        self.publisher.publish(message).map_err(|source| PublishError { topic: self.topic.clone(), source })
+    }
+
+    /// Number of subscriptions in other processes that this publisher has found.
+    pub fn readers(&self) -> usize {
+        self.publisher.get_inter_process_subscription_count().unwrap_or(0)
+    }
+}
+
+/// The receiving end of a topic or service. Empty it after every spin.
+pub struct Inbox<M> {
+    stream: Box<dyn Stream<Item = M> + Send + Unpin>,
+}
+
+impl<M: 'static> Inbox<M> {
+    pub(crate) fn new(stream: impl Stream<Item = M> + Send + Unpin + 'static) -> Inbox<M> {
+        Inbox { stream: Box::new(stream) }
+    }
+
+    /// The oldest message that waits, if any. Never blocks.
+    pub fn take(&mut self) -> Option<M> {
+        self.stream.next().now_or_never().flatten()
+    }
+
+    /// The newest message that waits, if any; older ones are dropped. For what is only interesting while fresh.
+    pub fn newest(&mut self) -> Option<M> {
+        let mut newest = None;
+        while let Some(message) = self.take() {
+            newest = Some(message);
+        }
+        newest
+    }
+}
