@@ -5,20 +5,41 @@
 //! a [`ContactShape`] is the surface around the contact. Units are SI. `depth` is positive into the body and every `force_n`
 //! of a contact is on the hand, positive outwards; a chain itself speaks the paper's `DL`, `dl_1`, `F`, negative when pressed.
 
+mod arc_length;
+mod body;
 mod chain;
 mod closed_form;
+mod closest;
 mod contact_law;
 mod contact_shape;
 mod double_double;
+mod expansion;
+mod grasp;
+mod interaction;
+mod local_law;
+mod mesh;
 mod parameter_error;
 mod parameters;
 mod pose;
+mod proxy;
+mod rings;
 mod sums;
+mod surface_field;
+mod surface_index;
+mod tissue;
 mod unit;
 
+pub use arc_length::ArcLengths;
+pub use body::Body;
 pub use chain::{Chain, ChainResponse};
 pub use contact_law::{ContactLaw, ForceError, LawResponse, NonFinite};
 pub use contact_shape::{ContactShape, Displacement};
+pub use interaction::{Impression, Interaction, Step, StepError};
+pub use local_law::{LocalLaw, Mode};
+pub use mesh::{Inspection, MeshError, SurfaceMesh, SurfacePoint, inspect};
 pub use parameter_error::ParameterError;
 pub use parameters::{ChainParameters, Formulation, Spread, SurfaceParameters};
 pub use pose::{Pose, PoseError};
+pub use surface_field::SurfaceField;
+pub use surface_index::SurfaceIndex;
+pub use tissue::{Tissue, TissueError};
