@@ -1,1 +1,34 @@
-//! Placeholder.
+//! Haptic devices without ROS: what a device is ([`Device`]), what stands behind it ([`Backend`]), and the motor loop
+//! that reads poses and commands forces at a fixed rate ([`MotorLoop`]).
+//!
+//! ```text
+//!             newest wins (latest)                      every sample, in order (samples)
+//! ROS thread ---- contact law, servo force ---> motor loop ---- pose, velocity, force ---> publisher thread
+//!                                                 |  ^
+//!                                          command|  |read
+//!                                                 v  |
+//!                                                Device
+//! ```
+//!
+//! The motor loop waits for nobody and allocates nothing: it takes the newest contact law when there is one and
+//! evaluates it itself, so a late message costs freshness of the law and never a period of the loop.
+
+mod backend;
+mod device;
+mod force_choice;
+mod latest;
+mod motor_loop;
+mod realtime;
+mod samples;
+#[cfg(feature = "simulated")]
+pub mod simulated;
+mod stamp_clock;
+mod tick;
+
+pub use backend::Backend;
+pub use device::{Device, DeviceError, DeviceLimits, DeviceState, Workspace};
+pub use force_choice::{ForceOrigin, ForceSource, LawCommand, ServoCommand};
+pub use motor_loop::{MotorError, MotorLoop, MotorSettings};
+pub use realtime::{Scheduling, monotonic_ns};
+pub use samples::{SampleReceiver, SampleSender, samples};
+pub use tick::{Counts, Sample};

@@ -1,0 +1,148 @@
+//! A device that is not there: a delta-like handle with a hand on it that follows a script and feels the force.
+
+mod hand;
+mod plan;
+mod script;
+
+pub use hand::HandSettings;
+pub use plan::{Motion, Site, press_slide_grasp_pull};
+pub use script::{Phase, Script, ScriptError, Segment, Target};
+
+use glam::{DQuat, DVec3};
+use rhombus_chain::Pose;
+
+use crate::{Device, DeviceError, DeviceLimits, DeviceState, Workspace};
+use hand::Hand;
+
+/// The device that the reference experiment used: a 6-DOF delta, 360 mm in diameter, 300 mm high, 20 N.
+pub const LIMITS: DeviceLimits =
+    DeviceLimits { max_force_n: 20.0, workspace: Workspace { radius_m: 0.18, height_m: 0.3 } };
+
+/// What a simulated device is made from.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// The mechanics of hand and handle.
+    pub hand: HandSettings,
+    /// What the hand means to do.
+    pub script: Script,
+    /// Time between two commands, s: the motor loop's period.
+    pub period_s: f64,
+}
+
+/// The simulated device. Its clock is the number of commands it got: [`read`](Device::read) looks at the handle,
+/// [`command`](Device::command) lets one period pass under that force. So the same forces give the same motion, bit
+/// for bit, however late the loop is.
+#[derive(Clone, Debug)]
+pub struct SimulatedDevice {
+    script: Script,
+    period_s: f64,
+    hand: Hand,
+    commands: u64,
+}
+
+impl SimulatedDevice {
+    /// A hand at rest where its script begins.
+    ///
+    /// # Errors
+    /// [`DeviceError::Setting`] names the parameter that is no mechanics.
+    pub fn open(settings: Settings) -> Result<SimulatedDevice, DeviceError> {
+        let Settings { hand, script, period_s } = settings;
+        let hand = Hand::new(hand, period_s, script.at(0.0).position)?;
+        Ok(SimulatedDevice { script, period_s, hand, commands: 0 })
+    }
+
+    /// What the hand is doing. RT safe.
+    pub fn target(&self) -> Target {
+        self.script.at(self.time_s())
+    }
+
+    fn time_s(&self) -> f64 {
+        self.commands as f64 * self.period_s
+    }
+}
+
+impl Device for SimulatedDevice {
+    fn name(&self) -> &str {
+        "simulated"
+    }
+
+    fn limits(&self) -> DeviceLimits {
+        LIMITS
+    }
+
+    fn read(&mut self) -> Result<DeviceState, DeviceError> {
+        Ok(DeviceState {
+            pose: Pose { translation: self.hand.position(), rotation: DQuat::IDENTITY },
+            linear_velocity_m_per_s: self.hand.velocity(),
+            angular_velocity_rad_per_s: DVec3::ZERO,
+            gripper_rad: Some(self.target().gripper_rad),
+            buttons: 0,
+            device_time_ns: (self.time_s() * 1e9).round() as u64,
+        })
+    }
+
+    fn command(&mut self, force_n: DVec3) -> Result<(), DeviceError> {
+        let (script, start_s) = (&self.script, self.time_s());
+        self.hand.advance(force_n, &LIMITS.workspace, |since_s| script.at(start_s + since_s));
+        self.commands += 1;
+        Ok(())
+    }
+
+    fn disable(&mut self) -> Result<(), DeviceError> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn device() -> SimulatedDevice {
+        let site = |x| Site { point: DVec3::new(x, 0.0, 0.0), normal: DVec3::Z, slide: vec![] };
+        let script = press_slide_grasp_pull(&[site(-0.02), site(0.02)], &Motion::default()).unwrap();
+        let hand = HandSettings { mass_kg: 0.3, stiffness_n_per_m: 500.0, damping_n_s_per_m: 20.0 };
+        SimulatedDevice::open(Settings { hand, script, period_s: 1e-3 }).unwrap()
+    }
+
+    /// The depth in a wall z < 0 felt by the default probe, and the wall's force.
+    fn wall(state: &DeviceState, stiffness_n_per_m: f64) -> (f64, DVec3) {
+        let depth_m = (Motion::default().probe_radius_m - state.pose.translation.z).max(0.0);
+        (depth_m, DVec3::Z * stiffness_n_per_m * depth_m)
+    }
+
+    #[test]
+    fn the_force_pushes_the_hand_back_so_that_it_goes_less_deep_than_it_means_to() {
+        let mut device = device();
+        let mut deepest_m = 0.0f64;
+        for _ in 0..12_000 {
+            let state = device.read().unwrap();
+            let (depth_m, force_n) = wall(&state, 300.0);
+            deepest_m = deepest_m.max(depth_m);
+            device.command(force_n).unwrap();
+        }
+        // Static balance of 500 N/m against 300 N/m: 5/8 of the intended depth.
+        let balance_m = Motion::default().depth_m * 500.0 / 800.0;
+        assert!((deepest_m - balance_m).abs() < 0.03 * balance_m, "{deepest_m}");
+    }
+
+    #[test]
+    fn the_same_forces_give_the_same_motion_bit_for_bit() {
+        let run = || {
+            let mut device = device();
+            let mut states = Vec::new();
+            for _ in 0..3000 {
+                let state = device.read().unwrap();
+                device.command(wall(&state, 250.0).1).unwrap();
+                states.push(state);
+            }
+            states
+        };
+        assert_eq!(run(), run());
+    }
+
+    #[test]
+    fn nothing_moves_without_a_command() {
+        let mut device = device();
+        assert_eq!(device.read().unwrap(), device.read().unwrap());
+    }
+}
