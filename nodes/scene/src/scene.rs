@@ -115,12 +115,16 @@ pub struct DeviceSettings {
     pub rate_hz: f64,
     /// Largest force on the hand, N.
     pub max_force_n: f64,
+    /// What the motors follow: `contact_law` or `servo_cf`.
+    pub force_source: String,
+    /// Subscriptions of the poses to wait for before the motors start.
+    pub wait_for_readers: usize,
 }
 
 /// `simulated.*`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimulatedSettings {
-    /// Mass of hand and handle, kg.
+    /// Mass of the hand and the moving parts of the device, kg.
     pub mass_kg: f64,
     /// Stiffness with which the hand follows its path, N/m.
     pub stiffness_n_per_m: f64,
@@ -132,7 +136,7 @@ pub struct SimulatedSettings {
     pub pull_m: f64,
     /// Intended slide along the surface, m.
     pub slide_m: f64,
-    /// Time at one site, s.
+    /// Time for a pair of sites, s.
     pub period_s: f64,
 }
 
@@ -229,6 +233,9 @@ impl Scene {
                 motion_scale: p.double("device.motion_scale")?,
                 rate_hz: p.double("device.rate")?,
                 max_force_n: p.double("device.max_force")?,
+                force_source: p.text("device.force_source")?.to_owned(),
+                // The schema has checked that it is not negative.
+                wait_for_readers: usize::try_from(p.integer("device.wait_for_readers")?).unwrap_or(0),
             },
             simulated: SimulatedSettings {
                 mass_kg: p.double("simulated.mass")?,
