@@ -1,1 +1,28 @@
-//! Placeholder.
+//! rosbag2 recordings without ROS: written, read, and their messages decoded.
+//!
+//! A recording is what rosbag2 calls a bag: a directory `NAME/` with `metadata.yaml` and `NAME_0.mcap`. [`Writer`] makes
+//! one, [`Recording`] reads one (or a bare `.mcap`), [`cdr`] and [`messages`] turn the bytes of a message into values
+//! and back, and [`MessageDefinitions`] finds the texts and hashes that make a recording readable without ROS.
+//!
+//! Times are nanoseconds since 1970 as rosbag2 stores them: `log_time_ns` is when the recorder received a message. The
+//! stamp inside a message is another matter and is never looked at here.
+
+pub mod cdr;
+mod definitions;
+mod error;
+mod file;
+mod index;
+pub mod messages;
+mod metadata;
+mod order;
+mod qos;
+mod reader;
+mod topic;
+mod writer;
+
+pub use definitions::{DefinitionError, MessageDefinition, MessageDefinitions};
+pub use error::Error;
+pub use qos::{Durability, History, Liveliness, Qos, QosTime, Reliability};
+pub use reader::{Message, Messages, Recording};
+pub use topic::{RecordedTopic, Topic};
+pub use writer::{TopicId, Writer, Written};

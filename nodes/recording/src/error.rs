@@ -1,0 +1,88 @@
+//! What can go wrong with a recording, said with the file, the place and the way out.
+
+use std::path::{Path, PathBuf};
+
+/// Why a recording could not be written or read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The operating system refused.
+    #[error("{}: cannot {action}: {source}", path.display())]
+    Io {
+        /// File or directory.
+        path: PathBuf,
+        /// What was tried, as a verb.
+        action: &'static str,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// A recording is never overwritten.
+    #[error("{}: exists already and is not overwritten; choose another name or move it away", path.display())]
+    Exists {
+        /// The directory that is in the way.
+        path: PathBuf,
+    },
+    /// The path is not a recording at all.
+    #[error("{}: not a recording: {reason}; accepted: a rosbag2 directory with metadata.yaml or .mcap files, or one .mcap file", path.display())]
+    NotARecording {
+        /// What was given.
+        path: PathBuf,
+        /// What was found instead.
+        reason: String,
+    },
+    /// A recording that another program reads, but this version does not.
+    #[error("{}: {what} is not read by this version; `ros2 bag convert` to uncompressed MCAP helps", path.display())]
+    Unsupported {
+        /// File.
+        path: PathBuf,
+        /// The storage, compression or encoding.
+        what: String,
+    },
+    /// Bytes that are not what they should be. The rest of the recording is unaffected.
+    #[error("{} at byte {offset}: {reason}", path.display())]
+    Damaged {
+        /// File.
+        path: PathBuf,
+        /// Where in the file.
+        offset: u64,
+        /// What is wrong there.
+        reason: String,
+    },
+    /// `metadata.yaml` cannot be used.
+    #[error("{}: {reason}", path.display())]
+    Metadata {
+        /// The `metadata.yaml`.
+        path: PathBuf,
+        /// Which key, and why.
+        reason: String,
+    },
+    /// The MCAP encoder refused, mostly because the disk did.
+    #[error("{}: cannot write: {source}", path.display())]
+    Write {
+        /// The `.mcap` file.
+        path: PathBuf,
+        /// The encoder's reason.
+        source: mcap::McapError,
+    },
+    /// A topic was added twice.
+    #[error("topic {topic} is in the recording already")]
+    TopicTwice {
+        /// Its name.
+        topic: String,
+    },
+}
+
+impl Error {
+    /// For `map_err` on calls into the operating system.
+    pub(crate) fn io(path: &Path, action: &'static str) -> impl FnOnce(std::io::Error) -> Self {
+        move |source| Self::Io { path: path.to_owned(), action, source }
+    }
+
+    pub(crate) fn write(path: &Path) -> impl FnOnce(mcap::McapError) -> Self {
+        move |source| Self::Write { path: path.to_owned(), source }
+    }
+
+    pub(crate) fn damaged(path: &Path, offset: u64, reason: impl Into<String>) -> Self {
+        Self::Damaged { path: path.to_owned(), offset, reason: reason.into() }
+    }
+}

@@ -1,0 +1,163 @@
+//! The records of an MCAP file, one at a time and never beyond the end of the file.
+//!
+//! An MCAP file is a row of records: one byte that says the kind, eight that say the length, and the content. Lengths are
+//! checked against what is there before anything is read, so that a broken file costs an error and no memory.
+
+use std::fs::File;
+use std::ops::Range;
+use std::os::unix::fs::FileExt;
+use std::path::{Path, PathBuf};
+
+use mcap::records::Record;
+
+use crate::error::Error;
+
+/// Kind and length in front of every record.
+pub(crate) const HEAD: u64 = 9;
+/// Channel, sequence, log time and publish time in front of the data of a message.
+pub(crate) const MESSAGE_HEAD: usize = 22;
+/// Behind the last record: the footer with its head, and the magic bytes.
+pub(crate) const FOOTER_AND_MAGIC: u64 = HEAD + 20 + mcap::MAGIC.len() as u64;
+
+/// An open MCAP file.
+#[derive(Debug)]
+pub(crate) struct McapFile {
+    path: PathBuf,
+    file: File,
+    len: u64,
+}
+
+/// A record in a file: its kind and where its content lies.
+#[derive(Debug, Clone)]
+pub(crate) struct Place {
+    pub(crate) opcode: u8,
+    pub(crate) content: Range<u64>,
+}
+
+impl McapFile {
+    /// Opens a file and checks that it begins like MCAP.
+    pub(crate) fn open(path: &Path) -> Result<Self, Error> {
+        let file = File::open(path).map_err(Error::io(path, "open"))?;
+        let len = file.metadata().map_err(Error::io(path, "open"))?.len();
+        let opened = Self { path: path.to_owned(), file, len };
+        let magic = mcap::MAGIC.len() as u64;
+        if len < magic || opened.read(0..magic)? != mcap::MAGIC {
+            let reason = if len == 0 {
+                "the file is empty"
+            } else {
+                "the file does not begin with the MCAP magic bytes"
+            };
+            return Err(Error::NotARecording { path: path.to_owned(), reason: reason.to_owned() });
+        }
+        Ok(opened)
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(crate) fn len(&self) -> u64 {
+        self.len
+    }
+
+    /// The bytes of a range, which must lie in the file.
+    pub(crate) fn read(&self, range: Range<u64>) -> Result<Vec<u8>, Error> {
+        let size = range.end.checked_sub(range.start).filter(|_| range.end <= self.len);
+        let size = size.and_then(|size| usize::try_from(size).ok()).ok_or_else(|| self.cut(range.start))?;
+        let mut bytes = vec![0; size];
+        self.file.read_exact_at(&mut bytes, range.start).map_err(Error::io(&self.path, "read"))?;
+        Ok(bytes)
+    }
+
+    /// The record that begins at `offset`.
+    pub(crate) fn record(&self, offset: u64) -> Result<Place, Error> {
+        let begin = offset.checked_add(HEAD).ok_or_else(|| self.cut(offset))?;
+        let head = self.read(offset..begin)?;
+        split_record(&head).map_or_else(
+            || Err(self.cut(offset)),
+            |(opcode, length)| match begin.checked_add(length).filter(|end| *end <= self.len) {
+                Some(end) => Ok(Place { opcode, content: begin..end }),
+                None => {
+                    let left = self.len - begin;
+                    let reason = format!("a record of {length} bytes, and {left} bytes are left in the file");
+                    Err(Error::damaged(&self.path, offset, reason))
+                }
+            },
+        )
+    }
+
+    /// The content of a record, parsed.
+    pub(crate) fn parse<'a>(&self, opcode: u8, content: &'a [u8], offset: u64) -> Result<Record<'a>, Error> {
+        mcap::parse_record(opcode, content).map_err(|error| {
+            Error::damaged(&self.path, offset, format!("record of kind {opcode:#04x}: {error}"))
+        })
+    }
+
+    fn cut(&self, offset: u64) -> Error {
+        Error::damaged(&self.path, offset, "the file ends inside a record")
+    }
+}
+
+/// Kind and length of a record from its first nine bytes.
+fn split_record(head: &[u8]) -> Option<(u8, u64)> {
+    let (opcode, rest) = head.split_first()?;
+    Some((*opcode, u64::from_le_bytes(*rest.first_chunk()?)))
+}
+
+/// A record inside a buffer.
+pub(crate) struct InBuffer<'a> {
+    pub(crate) opcode: u8,
+    pub(crate) content: &'a [u8],
+    /// Where its first byte is in the buffer.
+    pub(crate) offset: usize,
+}
+
+/// Goes through the records in a buffer; one that does not fit ends it with its offset as the error.
+pub(crate) fn records(buffer: &[u8]) -> impl Iterator<Item = Result<InBuffer<'_>, usize>> {
+    let mut offset = 0;
+    let mut failed = false;
+    std::iter::from_fn(move || {
+        let rest = buffer.get(offset..).filter(|rest| !rest.is_empty() && !failed)?;
+        let record = split_record(rest).and_then(|(opcode, length)| {
+            let end = usize::try_from(length).ok()?.checked_add(HEAD as usize)?;
+            let content = rest.get(HEAD as usize..end)?;
+            Some((InBuffer { opcode, content, offset }, end))
+        });
+        Some(match record {
+            Some((record, length)) => {
+                offset += length;
+                Ok(record)
+            }
+            None => {
+                failed = true;
+                Err(offset)
+            }
+        })
+    })
+}
+
+/// The fixed fields in front of the data of a message.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MessageHead {
+    pub(crate) channel: u16,
+    pub(crate) sequence: u32,
+    pub(crate) log_time_ns: u64,
+    pub(crate) publish_time_ns: u64,
+}
+
+impl MessageHead {
+    /// Splits the content of a message record into these fields and the data.
+    pub(crate) fn split(content: &[u8]) -> Option<(Self, &[u8])> {
+        let (channel, rest) = content.split_first_chunk()?;
+        let (sequence, rest) = rest.split_first_chunk()?;
+        let (log_time, rest) = rest.split_first_chunk()?;
+        let (publish_time, data) = rest.split_first_chunk()?;
+        let head = Self {
+            channel: u16::from_le_bytes(*channel),
+            sequence: u32::from_le_bytes(*sequence),
+            log_time_ns: u64::from_le_bytes(*log_time),
+            publish_time_ns: u64::from_le_bytes(*publish_time),
+        };
+        Some((head, data))
+    }
+}

@@ -1,0 +1,218 @@
+//! `metadata.yaml` of a rosbag2 directory: versions 1 to 9 are read, 9 is written.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::qos::{self, Qos};
+
+/// The file's name in the directory of a recording.
+pub(crate) const FILE_NAME: &str = "metadata.yaml";
+/// The version this crate writes: ROS 2 Jazzy.
+const VERSION: u32 = 9;
+/// What rosbag2 writes as the start of a recording without messages.
+const NO_START_NS: u64 = i64::MAX as u64;
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Root {
+    rosbag2_bagfile_information: Metadata,
+}
+
+/// The content, in the order rosbag2 writes it.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct Metadata {
+    pub(crate) version: u32,
+    pub(crate) storage_identifier: String,
+    pub(crate) duration: Nanoseconds,
+    pub(crate) starting_time: SinceEpoch,
+    pub(crate) message_count: u64,
+    pub(crate) topics_with_message_count: Vec<TopicWithCount>,
+    #[serde(default)]
+    pub(crate) compression_format: String,
+    #[serde(default)]
+    pub(crate) compression_mode: String,
+    pub(crate) relative_file_paths: Vec<String>,
+    #[serde(default)]
+    pub(crate) files: Vec<FileInformation>,
+    #[serde(default)]
+    pub(crate) custom_data: Option<BTreeMap<String, String>>,
+    #[serde(default)]
+    pub(crate) ros_distro: String,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct Nanoseconds {
+    pub(crate) nanoseconds: u64,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct SinceEpoch {
+    pub(crate) nanoseconds_since_epoch: u64,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct TopicWithCount {
+    pub(crate) topic_metadata: TopicMetadata,
+    pub(crate) message_count: u64,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct TopicMetadata {
+    pub(crate) name: String,
+    #[serde(rename = "type")]
+    pub(crate) type_name: String,
+    pub(crate) serialization_format: String,
+    #[serde(default, deserialize_with = "qos::list_or_text")]
+    pub(crate) offered_qos_profiles: Vec<Qos>,
+    #[serde(default)]
+    pub(crate) type_description_hash: String,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct FileInformation {
+    pub(crate) path: String,
+    pub(crate) starting_time: SinceEpoch,
+    pub(crate) duration: Nanoseconds,
+    pub(crate) message_count: u64,
+}
+
+impl Metadata {
+    /// For an MCAP recording in one file. `bounds_ns` are the first and last log time, `None` without messages.
+    pub(crate) fn of_one_file(
+        file_name: &str,
+        bounds_ns: Option<(u64, u64)>,
+        topics: Vec<TopicWithCount>,
+        ros_distro: &str,
+    ) -> Self {
+        let (start, end) = bounds_ns.unwrap_or((NO_START_NS, NO_START_NS));
+        let duration = Nanoseconds { nanoseconds: end.saturating_sub(start) };
+        let starting_time = SinceEpoch { nanoseconds_since_epoch: start };
+        let message_count = topics.iter().map(|topic| topic.message_count).sum();
+        Self {
+            version: VERSION,
+            storage_identifier: "mcap".to_owned(),
+            duration: duration.clone(),
+            starting_time: starting_time.clone(),
+            message_count,
+            topics_with_message_count: topics,
+            compression_format: String::new(),
+            compression_mode: String::new(),
+            relative_file_paths: vec![file_name.to_owned()],
+            files: vec![FileInformation {
+                path: file_name.to_owned(),
+                starting_time,
+                duration,
+                message_count,
+            }],
+            custom_data: None,
+            ros_distro: ros_distro.to_owned(),
+        }
+    }
+
+    /// The YAML without the outermost key, as the MCAP metadata record `rosbag2` carries it.
+    pub(crate) fn to_yaml(&self, path: &Path) -> Result<String, Error> {
+        serde_yaml::to_string(self).map_err(invalid(path))
+    }
+
+    /// Writes the file in one step: a reader finds the old one or the new one, never a part.
+    pub(crate) fn save(&self, directory: &Path) -> Result<(), Error> {
+        let path = directory.join(FILE_NAME);
+        let text = serde_yaml::to_string(&Root { rosbag2_bagfile_information: self.clone() })
+            .map_err(invalid(&path))?;
+        let unfinished = directory.join(".metadata.yaml.part");
+        std::fs::write(&unfinished, text).map_err(Error::io(&unfinished, "write"))?;
+        std::fs::rename(&unfinished, &path).map_err(Error::io(&path, "write"))
+    }
+
+    /// Reads `metadata.yaml` of `directory`; `None` when there is none.
+    pub(crate) fn load(directory: &Path) -> Result<Option<Self>, Error> {
+        let path = directory.join(FILE_NAME);
+        let bytes = match std::fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(Error::io(&path, "read")(error)),
+        };
+        let root: Root = serde_yaml::from_slice(&bytes).map_err(invalid(&path))?;
+        let metadata = root.rosbag2_bagfile_information;
+        if (1..=VERSION).contains(&metadata.version) {
+            Ok(Some(metadata))
+        } else {
+            let reason = format!("version is {}, accepted: 1 to {VERSION}", metadata.version);
+            Err(Error::Metadata { path, reason })
+        }
+    }
+}
+
+fn invalid(path: &Path) -> impl FnOnce(serde_yaml::Error) -> Error {
+    move |error| Error::Metadata { path: path.to_owned(), reason: error.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Humble: version 5, QoS as a text with numbers, no hash, no custom data, no distribution.
+    const HUMBLE: &str = r#"rosbag2_bagfile_information:
+  version: 5
+  storage_identifier: mcap
+  duration:
+    nanoseconds: 9000000
+  starting_time:
+    nanoseconds_since_epoch: 1700000000000000000
+  message_count: 10
+  topics_with_message_count:
+    - topic_metadata:
+        name: /measured_cp
+        type: geometry_msgs/msg/PoseStamped
+        serialization_format: cdr
+        offered_qos_profiles: "- history: 3\n  depth: 0\n  reliability: 1\n  durability: 2\n  deadline:\n    sec: 9223372036\n    nsec: 854775807\n  lifespan:\n    sec: 9223372036\n    nsec: 854775807\n  liveliness: 1\n  liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n  avoid_ros_namespace_conventions: false"
+      message_count: 10
+  compression_format: ""
+  compression_mode: ""
+  relative_file_paths:
+    - session_0.mcap
+  files:
+    - path: session_0.mcap
+      starting_time:
+        nanoseconds_since_epoch: 1700000000000000000
+      duration:
+        nanoseconds: 9000000
+      message_count: 10
+"#;
+
+    fn loaded(text: &str) -> Result<Option<Metadata>, Error> {
+        let directory = tempfile::tempdir().unwrap();
+        std::fs::write(directory.path().join(FILE_NAME), text).unwrap();
+        Metadata::load(directory.path())
+    }
+
+    #[test]
+    fn version_5_reads_with_its_qos() {
+        let metadata = loaded(HUMBLE).unwrap().unwrap();
+        let topic = &metadata.topics_with_message_count[0].topic_metadata;
+        assert_eq!(topic.offered_qos_profiles.len(), 1);
+        assert_eq!(topic.offered_qos_profiles[0].reliability, crate::Reliability::Reliable);
+        assert_eq!(metadata.relative_file_paths, ["session_0.mcap"]);
+    }
+
+    #[test]
+    fn what_is_saved_reads_back_and_leaves_no_other_file() {
+        let directory = tempfile::tempdir().unwrap();
+        let metadata = Metadata::of_one_file("a_0.mcap", Some((5, 9)), Vec::new(), "jazzy");
+        metadata.save(directory.path()).unwrap();
+        let again = Metadata::load(directory.path()).unwrap().unwrap();
+        assert_eq!((again.version, again.duration.nanoseconds, again.ros_distro.as_str()), (9, 4, "jazzy"));
+        assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_version_to_come_and_a_missing_key_are_named() {
+        let newer = loaded(&HUMBLE.replace("version: 5", "version: 10")).unwrap_err().to_string();
+        assert!(newer.contains("metadata.yaml") && newer.contains("version is 10"), "{newer}");
+        let cut = loaded(&HUMBLE.replace("  storage_identifier: mcap\n", "")).unwrap_err().to_string();
+        assert!(cut.contains("metadata.yaml") && cut.contains("storage_identifier"), "{cut}");
+        assert!(loaded("just a word").is_err());
+    }
+}

@@ -1,0 +1,204 @@
+//! Killed recorders and broken files: what is whole is read, what is not is said, and nothing panics.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, which may panic")]
+
+mod common;
+
+use std::path::{Path, PathBuf};
+
+use common::*;
+use proptest::prelude::*;
+use recording::{Error, Recording, Writer};
+
+/// The bytes of a closed recording of two seconds: four chunks or five.
+fn whole_file() -> Vec<u8> {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    recorded(&path, 2000);
+    std::fs::read(path.join("session_0.mcap")).unwrap()
+}
+
+fn opened(bytes: &[u8]) -> Result<Recording, Error> {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("broken.mcap");
+    std::fs::write(&path, bytes).unwrap();
+    Recording::open(&path)
+}
+
+#[test]
+fn a_killed_recorder_loses_less_than_a_second() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    let mut writer = Writer::create(&path, "jazzy").unwrap();
+    let topic = writer.add_topic(topic("/pose")).unwrap();
+    write(&mut writer, topic, 0..3700);
+    // As SIGKILL does: nothing of the writer runs any more.
+    std::mem::forget(writer);
+    let recording = Recording::open(&path).unwrap();
+    assert_eq!(recording.damage().len(), 1);
+    assert!(recording.damage()[0].to_string().contains("stopped hard"), "{}", recording.damage()[0]);
+    let (messages, errors) = read(&recording);
+    assert!(errors.is_empty());
+    assert!(messages.len() > 2700 && messages.len() < 3700, "{}", messages.len());
+    assert_eq!(recording.topics()[0].message_count, messages.len() as u64);
+    for (number, message) in (0..).zip(&messages) {
+        assert_eq!(message.log_time_ns, log_time_ns(number));
+    }
+}
+
+#[test]
+fn after_a_flush_a_killed_recorder_loses_nothing() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    let mut writer = Writer::create(&path, "").unwrap();
+    let topic = writer.add_topic(topic("/pose")).unwrap();
+    write(&mut writer, topic, 0..10);
+    writer.flush().unwrap();
+    std::mem::forget(writer);
+    assert_eq!(read(&Recording::open(&path).unwrap()).0.len(), 10);
+}
+
+#[test]
+fn a_chunk_with_a_wrong_checksum_is_left_out_and_reading_goes_on_behind_it() {
+    let mut bytes = whole_file();
+    // The x of some pose in the second chunk: ten bytes into the payload of message 700.
+    let needle = recording::cdr::encode(&pose(700));
+    let at = bytes.windows(needle.len()).position(|window| window == needle).unwrap();
+    bytes[at + 30] ^= 1;
+    let recording = opened(&bytes).unwrap();
+    let (messages, errors) = read(&recording);
+    assert_eq!(errors.len(), 1, "{errors:?}");
+    assert!(errors[0].to_string().contains("checksum"), "{}", errors[0]);
+    let times: Vec<_> = messages.iter().map(|message| message.log_time_ns).collect();
+    assert!(times.contains(&log_time_ns(0)) && times.contains(&log_time_ns(1999)));
+    assert!(!times.contains(&log_time_ns(700)) && times.is_sorted());
+    assert!(messages.len() >= 1400, "{}", messages.len());
+}
+
+#[test]
+fn a_broken_summary_costs_nothing() {
+    let bytes = whole_file();
+    let intact = read(&opened(&bytes).unwrap()).0;
+    let mut broken = bytes.clone();
+    let in_summary = broken.len() - 100;
+    broken[in_summary] ^= 0xff;
+    assert_eq!(read(&opened(&broken).unwrap()).0, intact);
+    let cut = &bytes[..bytes.len() - 20];
+    assert_eq!(read(&opened(cut).unwrap()).0, intact);
+}
+
+#[test]
+fn what_is_no_recording_is_refused_with_its_name() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name);
+    let refused = |path: &Path, words: &[&str]| {
+        let message = Recording::open(path).unwrap_err().to_string();
+        for word in words.iter().chain(&[path.file_name().unwrap().to_str().unwrap()]) {
+            assert!(message.contains(word), "{word:?} is missing in: {message}");
+        }
+    };
+    refused(&at("missing"), &["cannot open"]);
+    std::fs::write(at("empty.mcap"), "").unwrap();
+    refused(&at("empty.mcap"), &["empty"]);
+    std::fs::write(at("text.mcap"), "not a recording at all").unwrap();
+    refused(&at("text.mcap"), &["magic bytes"]);
+    std::fs::write(at("old.db3"), "SQLite format 3\0").unwrap();
+    refused(&at("old.db3"), &["SQLite", "ros2 bag convert"]);
+    std::fs::create_dir(at("folder")).unwrap();
+    refused(&at("folder"), &["metadata.yaml", ".mcap"]);
+}
+
+#[test]
+fn a_compressed_file_is_refused_at_once_and_the_error_says_how_to_convert_it() {
+    let bytes = whole_file();
+    // The name of the compression of the first chunk, which is empty, becomes "zstd".
+    let chunk = first_chunk(&bytes);
+    let mut compressed = bytes[..chunk].to_vec();
+    let length = u64::from_le_bytes(bytes[chunk + 1..chunk + 9].try_into().unwrap());
+    compressed.push(bytes[chunk]);
+    compressed.extend((length + 4).to_le_bytes());
+    compressed.extend(&bytes[chunk + 9..chunk + 9 + 28]);
+    compressed.extend(4_u32.to_le_bytes());
+    compressed.extend(b"zstd");
+    compressed.extend(&bytes[chunk + 9 + 32..]);
+    let message = opened(&compressed).unwrap_err().to_string();
+    assert!(message.contains("zstd") && message.contains("ros2 bag convert"), "{message}");
+}
+
+fn first_chunk(bytes: &[u8]) -> usize {
+    let mut at = mcap::MAGIC.len();
+    while bytes[at] != mcap::records::op::CHUNK {
+        at += 9 + u64::from_le_bytes(bytes[at + 1..at + 9].try_into().unwrap()) as usize;
+    }
+    at
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_change_of_a_file_makes_the_reader_panic_or_invent_messages(
+        changes in proptest::collection::vec((place(), any::<u8>()), 0..6),
+        cut in proptest::option::of(any::<prop::sample::Index>()),
+    ) {
+        let mut bytes = WHOLE.with(Vec::clone);
+        for (at, value) in changes {
+            let at = at.in_file(bytes.len());
+            bytes[at] = value;
+        }
+        if let Some(cut) = cut {
+            bytes.truncate(cut.index(bytes.len()));
+        }
+        if let Ok(recording) = opened(&bytes) {
+            let (messages, _) = read(&recording);
+            prop_assert!(messages.len() <= 2000);
+        }
+    }
+
+    #[test]
+    fn any_bytes_behind_the_magic_do_no_harm(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+        let file: Vec<u8> = mcap::MAGIC.iter().chain(&bytes).copied().collect();
+        if let Ok(recording) = opened(&file) {
+            read(&recording);
+        }
+    }
+}
+
+/// Where to break a file. Heads and the summary are a thousandth of it and decide everything, so they come up often.
+#[derive(Debug, Clone)]
+enum Place {
+    Head(usize),
+    Tail(usize),
+    Anywhere(prop::sample::Index),
+}
+
+impl Place {
+    fn in_file(&self, length: usize) -> usize {
+        match self {
+            Place::Head(at) => *at,
+            Place::Tail(at) => length - 1 - at,
+            Place::Anywhere(at) => at.index(length),
+        }
+    }
+}
+
+fn place() -> impl Strategy<Value = Place> {
+    prop_oneof![
+        (0..1200_usize).prop_map(Place::Head),
+        (0..2000_usize).prop_map(Place::Tail),
+        any::<prop::sample::Index>().prop_map(Place::Anywhere),
+    ]
+}
+
+thread_local! {
+    static WHOLE: Vec<u8> = whole_file();
+}
+
+#[test]
+fn a_directory_that_names_a_missing_file_says_which() {
+    let directory = tempfile::tempdir().unwrap();
+    let path: PathBuf = directory.path().join("session");
+    recorded(&path, 1);
+    std::fs::remove_file(path.join("session_0.mcap")).unwrap();
+    let message = Recording::open(&path).unwrap_err().to_string();
+    assert!(message.contains("session_0.mcap"), "{message}");
+}

@@ -1,0 +1,155 @@
+//! What the writer writes, the reader reads: every message, in order, with its topic.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, which may panic")]
+
+mod common;
+
+use common::*;
+use recording::cdr::{decode, encode};
+use recording::messages::PoseStamped;
+use recording::{Durability, Error, Qos, Recording, Writer};
+
+#[test]
+fn every_message_comes_back_in_order_over_many_chunks() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    recorded(&path, 5000);
+    let recording = Recording::open(&path).unwrap();
+    assert!(recording.damage().is_empty(), "{:?}", recording.damage());
+    let (messages, errors) = read(&recording);
+    assert!(errors.is_empty(), "{errors:?}");
+    assert_eq!(messages.len(), 5000);
+    for (number, message) in (0..).zip(&messages) {
+        assert_eq!(message.log_time_ns, log_time_ns(number));
+        assert_eq!(u64::from(message.sequence), number + 1);
+        assert_eq!(decode::<PoseStamped>(&message.data).unwrap(), pose(number));
+    }
+    assert_eq!(recording.log_time_bounds_ns(), Some((START_NS, log_time_ns(4999))));
+    assert_eq!(recording.topics()[0].message_count, 5000);
+}
+
+#[test]
+fn topics_keep_type_qos_hash_and_text_and_may_come_late() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    let mut writer = Writer::create(&path, "jazzy").unwrap();
+    let first = writer.add_topic(topic("/first")).unwrap();
+    write(&mut writer, first, 0..3);
+    let mut latched = topic("/late");
+    latched.offered_qos =
+        vec![Qos { durability: Durability::TransientLocal, ..Qos::default() }, Qos::default()];
+    let late = writer.add_topic(latched.clone()).unwrap();
+    write(&mut writer, late, 3..5);
+    let nothing = writer.add_topic(topic("/nothing")).unwrap();
+    let written = writer.close().unwrap();
+    assert_ne!(late, nothing);
+    let counts = [("/first", 3), ("/late", 2), ("/nothing", 0)].map(|(name, count)| (name.to_owned(), count));
+    assert_eq!(written.message_counts, counts);
+    let recording = Recording::open(&path).unwrap();
+    let topics: Vec<_> =
+        recording.topics().iter().map(|topic| (topic.topic.clone(), topic.message_count)).collect();
+    assert_eq!(topics, [(topic("/first"), 3), (latched, 2), (topic("/nothing"), 0)]);
+}
+
+#[test]
+fn equal_times_keep_the_order_in_which_they_were_stored_and_late_ones_are_sorted_in() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    let mut writer = Writer::create(&path, "").unwrap();
+    let topics = [writer.add_topic(topic("/a")).unwrap(), writer.add_topic(topic("/b")).unwrap()];
+    // Pairs of equal times over several chunks; every tenth pair is a millisecond late.
+    for number in 0..2000_u64 {
+        let time = log_time_ns(if number % 10 == 0 { number } else { number + 1 });
+        for topic in topics {
+            writer.write(topic, time, &encode(&pose(number))).unwrap();
+        }
+    }
+    writer.close().unwrap();
+    let (messages, errors) = read(&Recording::open(&path).unwrap());
+    assert!(errors.is_empty());
+    assert_eq!(messages.len(), 4000);
+    assert!(messages.is_sorted_by_key(|message| message.log_time_ns));
+    for equal in messages.chunk_by(|one, other| one.log_time_ns == other.log_time_ns) {
+        let stored: Vec<_> = equal.iter().map(|message| (message.sequence, message.topic)).collect();
+        assert!(stored.is_sorted(), "{stored:?}");
+    }
+}
+
+#[test]
+fn a_recording_is_never_overwritten() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    recorded(&path, 1);
+    let before = std::fs::read(path.join("session_0.mcap")).unwrap();
+    let error = Writer::create(&path, "").err().unwrap();
+    assert!(matches!(error, Error::Exists { .. }) && error.to_string().contains("session"), "{error}");
+    assert_eq!(std::fs::read(path.join("session_0.mcap")).unwrap(), before);
+}
+
+#[test]
+fn a_recording_without_messages_reads_as_empty() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    Writer::create(&path, "").unwrap().close().unwrap();
+    let recording = Recording::open(&path).unwrap();
+    assert_eq!(recording.log_time_bounds_ns(), None);
+    assert_eq!(read(&recording).0.len() + recording.damage().len() + recording.topics().len(), 0);
+}
+
+#[test]
+fn a_bare_file_and_a_directory_without_metadata_read_the_same() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    recorded(&path, 700);
+    let whole = read(&Recording::open(&path).unwrap()).0;
+    std::fs::remove_file(path.join("metadata.yaml")).unwrap();
+    assert_eq!(read(&Recording::open(&path).unwrap()).0, whole);
+    assert_eq!(read(&Recording::open(path.join("session_0.mcap")).unwrap()).0, whole);
+}
+
+#[test]
+fn split_files_are_one_recording_with_one_topic() {
+    let directory = tempfile::tempdir().unwrap();
+    let joined = directory.path().join("joined");
+    std::fs::create_dir(&joined).unwrap();
+    // Twelve parts, so that the order of the names is not the order of the letters.
+    for part in 0..12_u64 {
+        let path = directory.path().join("part");
+        let mut writer = Writer::create(&path, "").unwrap();
+        let topic = writer.add_topic(topic("/pose")).unwrap();
+        write(&mut writer, topic, part * 10..(part + 1) * 10);
+        writer.close().unwrap();
+        std::fs::rename(path.join("part_0.mcap"), joined.join(format!("joined_{part}.mcap"))).unwrap();
+        std::fs::remove_dir_all(path).unwrap();
+    }
+    let recording = Recording::open(&joined).unwrap();
+    assert_eq!(recording.topics().len(), 1);
+    assert_eq!(recording.topics()[0].message_count, 120);
+    let times: Vec<_> = read(&recording).0.iter().map(|message| message.log_time_ns).collect();
+    assert_eq!(times, (0..120).map(log_time_ns).collect::<Vec<_>>());
+}
+
+#[test]
+fn messages_outside_of_chunks_are_read_too() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("loose.mcap");
+    let mut writer =
+        mcap::WriteOptions::new().use_chunks(false).create(std::fs::File::create(&path).unwrap()).unwrap();
+    let schema = writer.add_schema("geometry_msgs/msg/PoseStamped", "ros2msg", b"").unwrap();
+    let channel = writer.add_channel(schema, "/pose", "cdr", &Default::default()).unwrap();
+    for number in 0..100 {
+        let time = log_time_ns(number);
+        let header = mcap::records::MessageHeader {
+            channel_id: channel,
+            sequence: 0,
+            log_time: time,
+            publish_time: time,
+        };
+        writer.write_to_known_channel(&header, &encode(&pose(number))).unwrap();
+    }
+    writer.finish().unwrap();
+    let recording = Recording::open(&path).unwrap();
+    assert_eq!(recording.topics()[0].message_count, 100);
+    let messages = read(&recording).0;
+    assert_eq!(messages.len(), 100);
+    assert_eq!(decode::<PoseStamped>(&messages[99].data).unwrap(), pose(99));
+}
