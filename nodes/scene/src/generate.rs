@@ -1,4 +1,36 @@
-//! Bodies made on the fly: closed, outward oriented surfaces with any number of vertices.
+//! Bodies made on the fly: closed, outward oriented surfaces, the same bits for the same number of vertices.
+
+mod block;
+mod liver;
+mod relax;
+mod rings;
+mod round;
+
+use glam::DVec3;
+
+/// A generated surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Vertices in metres.
+    pub vertices: Vec<DVec3>,
+    /// Triangles, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Most vertices that are generated: keeps a slip of the keyboard from filling the memory.
+pub const MOST_VERTICES: usize = 4_000_000;
+
+/// Generates a body with `vertices` vertices; liver and sphere have exactly that many, the block the nearest number
+/// that a box of nearly square cells can have. The number is raised to [`BodyKind::fewest_vertices`] and lowered to
+/// [`MOST_VERTICES`]. A closed surface of genus 0 with V vertices has 2 V - 4 triangles.
+pub fn body(kind: BodyKind, vertices: usize) -> Shape {
+    let vertices = vertices.clamp(kind.fewest_vertices(), MOST_VERTICES);
+    match kind {
+        BodyKind::Liver => round::generate(&liver::Liver, vertices),
+        BodyKind::Block => block::generate(vertices),
+        BodyKind::Sphere => round::generate(&round::Ball { radius_m: 0.05 }, vertices),
+    }
+}
 
 /// A body that can be generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +66,17 @@ impl BodyKind {
         match self {
             BodyKind::Liver => 3116,
             BodyKind::Block | BodyKind::Sphere => 1002,
+        }
+    }
+}
+
+impl BodyKind {
+    /// Fewer vertices do not show the shape.
+    pub fn fewest_vertices(self) -> usize {
+        match self {
+            BodyKind::Liver => 100,
+            BodyKind::Block => 8,
+            BodyKind::Sphere => 20,
         }
     }
 }

@@ -1,8 +1,10 @@
 //! What a scene file may say: names, units, ranges, defaults, validation; mesh files in, checked bodies out.
 
+mod body;
 mod chains;
 mod error;
 pub mod generate;
+mod mesh_file;
 mod mesh_source;
 mod origin;
 mod parameters;
@@ -12,9 +14,11 @@ mod sections;
 mod value;
 mod yaml;
 
+pub use body::{LoadedBody, Warning};
 pub use chains::ChainSettings;
 pub use error::{Problem, SceneError};
 pub use generate::BodyKind;
+pub use mesh_file::{MeshFile, Obj};
 pub use origin::Origin;
 pub use parameters::Parameters;
 pub use scene::{

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use rhombus_chain::{ContactLaw, Pose, Spread, SurfaceParameters};
+use rhombus_chain::{ContactLaw, ParameterError, Pose, Spread, SurfaceParameters, Tissue, TissueError};
 
 use crate::{BodyKind, ChainSettings, Parameters, Problem, Reader, SceneError, Value};
 
 /// A validated scene. Every value has been checked against the schema; what depends on several values has been
-/// checked too, except the chains and the mesh, which only the nodes that use them build:
-/// [`Scene::law`].
+/// checked too, except the chains and the mesh, which only the nodes that use them build: [`Scene::tissue`],
+/// [`Scene::load_body`].
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// What is touched.
@@ -284,6 +284,24 @@ impl Scene {
     /// The chains are missing or not accepted by the model.
     pub fn law(&self) -> Result<ContactLaw, SceneError> {
         self.required_chains()?.law(&self.parameters)
+    }
+
+    /// The validated model settings: contact law, surface, probe, grasp.
+    ///
+    /// # Errors
+    /// The chains are missing, or the model does not accept a setting.
+    pub fn tissue(&self) -> Result<Tissue, SceneError> {
+        Tissue::new(self.law()?, self.surface_parameters(), self.probe.radius_m, self.grasp.lateral).map_err(
+            |error| {
+                let name = match &error {
+                    TissueError::Surface(ParameterError::SurfaceOutOfRange { name, .. }) => name,
+                    TissueError::Surface(_) => "surface",
+                    TissueError::ProbeRadius(_) => "probe.radius",
+                    TissueError::GraspLateral(_) => "grasp.lateral",
+                };
+                self.parameters.error(name, Problem::Model(error.to_string()))
+            },
+        )
     }
 
     /// What the surface around a contact is computed from, besides the law.
