@@ -4,7 +4,7 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use glam::DVec3;
-use rhombus_chain::{ContactLaw, LocalLaw};
+use rhombus_chain::{ContactLaw, LocalLaw, Mode};
 
 use crate::latest::Receiver;
 
@@ -70,6 +70,17 @@ pub enum ForceOrigin {
     ServoForce,
 }
 
+/// The force of one period, not yet checked.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Choice {
+    /// It may be not finite and of any size.
+    pub(crate) force_n: DVec3,
+    /// Where it comes from.
+    pub(crate) origin: ForceOrigin,
+    /// How deep the probe is by the contact law, m; 0 without one or without contact.
+    pub(crate) depth_m: f64,
+}
+
 /// A moment on both clocks of the motor loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Moment {
@@ -90,20 +101,26 @@ pub(crate) struct Commands {
 }
 
 impl Commands {
-    /// The force for a probe at `probe` now, and where it comes from. It may be not finite and of any size: the caller
-    /// checks. RT safe.
-    pub(crate) fn force_n(&mut self, probe: DVec3, now: Moment) -> (DVec3, ForceOrigin) {
+    /// The force for a probe at `probe` now. The caller checks it. RT safe.
+    pub(crate) fn choose(&mut self, probe: DVec3, now: Moment) -> Choice {
         if self.source == ForceSource::ContactLaw
             && let Some(command) = self.laws.newest()
             && is_valid(command, now.stamp_ns)
         {
-            return (command.local.force_n(&command.chains, probe), ForceOrigin::ContactLaw);
+            let LawCommand { local, chains, .. } = command;
+            let depth_m = local.depth_m(probe);
+            return Choice {
+                force_n: local.force_n(chains, probe),
+                origin: ForceOrigin::ContactLaw,
+                // Negative depth is a pull in a grasp, and no contact otherwise.
+                depth_m: if local.mode == Mode::Contact { depth_m.max(0.0) } else { depth_m },
+            };
         }
         match self.servo.newest() {
             Some(command) if now.monotonic_ns.saturating_sub(command.received_ns) <= SERVO_VALIDITY_NS => {
-                (command.force_n, ForceOrigin::ServoForce)
+                Choice { force_n: command.force_n, origin: ForceOrigin::ServoForce, depth_m: 0.0 }
             }
-            _ => (DVec3::ZERO, ForceOrigin::Nobody),
+            _ => Choice::default(),
         }
     }
 }
@@ -118,7 +135,7 @@ fn is_valid(command: &LawCommand, now_ns: i64) -> bool {
 mod tests {
     use super::*;
     use crate::latest::{Sender, latest};
-    use rhombus_chain::{ChainParameters, Formulation, Mode};
+    use rhombus_chain::{ChainParameters, Formulation};
 
     const MS: u64 = 1_000_000;
     const STAMP_0: i64 = 1_700_000_000_000_000_000;
@@ -147,6 +164,12 @@ mod tests {
         Arc::new(ContactLaw::new(Formulation::Energy, &[one]).unwrap())
     }
 
+    /// Force and its origin.
+    fn choice(commands: &mut Commands, probe: DVec3, now: Moment) -> (DVec3, ForceOrigin) {
+        let choice = commands.choose(probe, now);
+        (choice.force_n, choice.origin)
+    }
+
     /// A floor z < 0 touched by a probe of 5 mm, from the sample at 100 ms, valid for 100 ms.
     fn law() -> LawCommand {
         LawCommand {
@@ -168,7 +191,7 @@ mod tests {
     #[test]
     fn nobody_answering_is_no_force() {
         let (mut commands, _laws, _servo) = commands(ForceSource::ContactLaw);
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(1)), (DVec3::ZERO, ForceOrigin::Nobody));
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(1)), (DVec3::ZERO, ForceOrigin::Nobody));
     }
 
     #[test]
@@ -176,10 +199,11 @@ mod tests {
         let (mut commands, mut laws, _servo) = commands(ForceSource::ContactLaw);
         laws.send(law());
         for depth_m in [0.001, 0.003] {
-            let (force_n, origin) = commands.force_n(DVec3::Z * (0.005 - depth_m), at_ms(101));
+            let choice = commands.choose(DVec3::Z * (0.005 - depth_m), at_ms(101));
             let expected = chains().at_depth(depth_m).unwrap().force_n;
-            assert!((force_n - DVec3::Z * expected).length() < 1e-12 && expected > 0.0);
-            assert_eq!(origin, ForceOrigin::ContactLaw);
+            assert!((choice.force_n - DVec3::Z * expected).length() < 1e-12 && expected > 0.0);
+            assert!((choice.depth_m - depth_m).abs() < 1e-15);
+            assert_eq!(choice.origin, ForceOrigin::ContactLaw);
         }
     }
 
@@ -187,17 +211,17 @@ mod tests {
     fn a_law_past_its_validity_is_not_used_nor_one_from_the_future() {
         let (mut commands, mut laws, _servo) = commands(ForceSource::ContactLaw);
         laws.send(law());
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(200)).1, ForceOrigin::ContactLaw);
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(201)), (DVec3::ZERO, ForceOrigin::Nobody));
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(99)), (DVec3::ZERO, ForceOrigin::Nobody));
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(200)).1, ForceOrigin::ContactLaw);
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(201)), (DVec3::ZERO, ForceOrigin::Nobody));
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(99)), (DVec3::ZERO, ForceOrigin::Nobody));
     }
 
     #[test]
     fn no_law_lives_for_ever_however_long_it_claims_to_be_valid() {
         let (mut commands, mut laws, _servo) = commands(ForceSource::ContactLaw);
         laws.send(LawCommand { validity_ns: i64::MAX, ..law() });
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(300)).1, ForceOrigin::ContactLaw);
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(301)), (DVec3::ZERO, ForceOrigin::Nobody));
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(300)).1, ForceOrigin::ContactLaw);
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(301)), (DVec3::ZERO, ForceOrigin::Nobody));
     }
 
     #[test]
@@ -205,19 +229,19 @@ mod tests {
         let (mut commands, mut laws, mut servo) = commands(ForceSource::ContactLaw);
         laws.send(law());
         servo.send(ServoCommand { received_ns: at_ms(195).monotonic_ns, force_n: DVec3::X });
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(200)).1, ForceOrigin::ContactLaw);
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(201)), (DVec3::X, ForceOrigin::ServoForce));
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(215)), (DVec3::X, ForceOrigin::ServoForce));
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(216)), (DVec3::ZERO, ForceOrigin::Nobody));
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(200)).1, ForceOrigin::ContactLaw);
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(201)), (DVec3::X, ForceOrigin::ServoForce));
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(215)), (DVec3::X, ForceOrigin::ServoForce));
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(216)), (DVec3::ZERO, ForceOrigin::Nobody));
     }
 
     #[test]
     fn with_the_source_servo_cf_no_law_is_evaluated() {
         let (mut commands, mut laws, mut servo) = commands(ForceSource::ServoForce);
         laws.send(law());
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(101)), (DVec3::ZERO, ForceOrigin::Nobody));
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(101)), (DVec3::ZERO, ForceOrigin::Nobody));
         servo.send(ServoCommand { received_ns: at_ms(101).monotonic_ns, force_n: DVec3::X });
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(101)).1, ForceOrigin::ServoForce);
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(101)).1, ForceOrigin::ServoForce);
     }
 
     #[test]
@@ -226,7 +250,7 @@ mod tests {
         servo.send(ServoCommand { received_ns: at_ms(100).monotonic_ns, force_n: DVec3::X });
         let local = LocalLaw { mode: Mode::None, ..law().local };
         laws.send(LawCommand { local, ..law() });
-        assert_eq!(commands.force_n(DVec3::ZERO, at_ms(101)), (DVec3::ZERO, ForceOrigin::ContactLaw));
+        assert_eq!(choice(&mut commands, DVec3::ZERO, at_ms(101)), (DVec3::ZERO, ForceOrigin::ContactLaw));
     }
 
     #[test]

@@ -21,6 +21,8 @@ pub struct Sample {
     pub force_n: DVec3,
     /// Where it came from.
     pub origin: ForceOrigin,
+    /// How deep the probe is by the contact law, m, negative when the body is pulled; 0 without a law or a contact.
+    pub depth_m: f64,
 }
 
 /// The largest force on the hand, shared with whoever may change it.
@@ -121,10 +123,17 @@ impl Ticker {
             self.device.command(DVec3::ZERO)?;
             return Ok(None);
         }
-        let (chosen_n, origin) = self.commands.force_n(state.pose.translation, now);
-        let force_n = self.safe_force_n(chosen_n);
+        let choice = self.commands.choose(state.pose.translation, now);
+        let force_n = self.safe_force_n(choice.force_n);
         self.device.command(force_n)?;
-        Ok(Some(Sample { stamp_ns: now.stamp_ns, monotonic_ns: now.monotonic_ns, state, force_n, origin }))
+        Ok(Some(Sample {
+            stamp_ns: now.stamp_ns,
+            monotonic_ns: now.monotonic_ns,
+            state,
+            force_n,
+            origin: choice.origin,
+            depth_m: choice.depth_m,
+        }))
     }
 
     /// Takes the force away.
@@ -183,6 +192,7 @@ pub(crate) mod tests {
             state: still(DVec3::ZERO),
             force_n: DVec3::ZERO,
             origin: ForceOrigin::Nobody,
+            depth_m: 0.0,
         }
     }
 
