@@ -85,6 +85,15 @@ impl NodeKit {
         frames::frame_id(&self.namespace, parameter)
     }
 
+    /// The same for a parameter of the device with this sub-namespace: "left" and "device_base" give
+    /// "left/device_base", as the device's own node would say it.
+    pub fn frame_id_of_device(&self, device: &str, parameter: &str) -> String {
+        if device.starts_with('/') {
+            return frames::frame_id(device, parameter);
+        }
+        frames::frame_id(&format!("{}/{device}", self.namespace), parameter)
+    }
+
     /// The parameters' present values, checked.
     pub fn parameters(&self) -> &Parameters {
         self.store.values()
@@ -138,8 +147,36 @@ impl NodeKit {
     where
         M: WrappedTypesupport + Send + 'static,
     {
+        self.subscribe_with(topic, sub_namespace, topic.qos())
+    }
+
+    /// Make a subscription of which only the newest message counts: rcl keeps one, so a slow reader finds the newest
+    /// and not the oldest of what waits. For viewers; never for what must all be answered.
+    ///
+    /// # Errors
+    /// rcl refuses, for instance because the name is none.
+    pub fn subscribe_newest<M>(
+        &mut self,
+        topic: &Topic<M>,
+        sub_namespace: &str,
+    ) -> Result<Inbox<M>, StartError>
+    where
+        M: WrappedTypesupport + Send + 'static,
+    {
+        self.subscribe_with(topic, sub_namespace, topic.qos().keep_last(1))
+    }
+
+    fn subscribe_with<M>(
+        &mut self,
+        topic: &Topic<M>,
+        sub_namespace: &str,
+        qos: QosProfile,
+    ) -> Result<Inbox<M>, StartError>
+    where
+        M: WrappedTypesupport + Send + 'static,
+    {
         let name = topic.name_in(sub_namespace);
-        match self.node.subscribe::<M>(&name, topic.qos()) {
+        match self.node.subscribe::<M>(&name, qos) {
             Ok(stream) => Ok(Inbox::new(stream)),
             Err(source) => Err(StartError::Endpoint { what: "subscription", name, source }),
         }
