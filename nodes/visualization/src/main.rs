@@ -1,2 +1,22 @@
-//! Placeholder.
-fn main() {}
+//! `visualization`: what RViz shows of a session.
+//!
+//! From the topics of device and model to markers and transforms. The drawing itself is plain data and knows nothing of
+//! ROS: what is known ([`surface`], [`device_view`]), how it looks ([`drawing`], [`rhombi`], [`colour`]), what the
+//! readers do not have yet ([`picture`], [`outbox`]). Around it stand the topics in ([`inputs`]), the messages out
+//! ([`messages`], [`transforms`]) and the loop ([`node`]).
+
+mod colour;
+mod device_view;
+mod drawing;
+mod inputs;
+mod messages;
+mod node;
+mod outbox;
+mod picture;
+mod rhombi;
+mod surface;
+mod transforms;
+
+fn main() -> std::process::ExitCode {
+    node_kit::run(node_kit::Node::Visualization, node::run)
+}

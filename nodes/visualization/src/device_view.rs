@@ -1,0 +1,268 @@
+//! What is known of one device: the newest of each message, checked at the door and forgotten when it is old.
+
+use std::time::{Duration, Instant};
+
+use glam::DVec3;
+use rhombus_chain::{ContactLaw, Pose};
+
+use crate::drawing::is_drawable;
+use crate::rhombi::ChainShape;
+
+/// What was not heard again for this long is no longer shown.
+const FORGET_AFTER: Duration = Duration::from_secs(1);
+
+/// The contact as the model sees it. Positions and directions in `frame_id`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Contact {
+    pub(crate) frame_id: String,
+    pub(crate) mode: Mode,
+    pub(crate) saturated: bool,
+    pub(crate) clutched: bool,
+    /// Centre of the probe.
+    pub(crate) probe_m: DVec3,
+    /// The contact point on the rest surface.
+    pub(crate) proxy_m: DVec3,
+    /// Out of the body; a unit vector while something is touched.
+    pub(crate) normal: DVec3,
+    /// Positive into the body.
+    pub(crate) depth_m: f64,
+}
+
+/// What the probe does with the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mode {
+    None,
+    Touch,
+    Grasp,
+}
+
+impl Contact {
+    fn is_drawable(&self) -> bool {
+        let touch = || {
+            is_drawable(self.proxy_m)
+                && is_drawable(self.normal * self.depth_m)
+                && self.normal.is_normalized()
+        };
+        !self.frame_id.is_empty() && is_drawable(self.probe_m) && (self.mode == Mode::None || touch())
+    }
+
+    /// Where the contact point is now, with its displacement `scale` times as large. A grasped point also follows the
+    /// probe along the surface.
+    pub(crate) fn displaced_m(&self, scale: f64) -> DVec3 {
+        let lateral_m = match self.mode {
+            Mode::Grasp => (self.probe_m - self.proxy_m).reject_from_normalized(self.normal),
+            Mode::None | Mode::Touch => DVec3::ZERO,
+        };
+        self.proxy_m + (lateral_m - self.normal * self.depth_m) * scale
+    }
+}
+
+/// A value in a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct InFrame<T> {
+    pub(crate) frame_id: String,
+    pub(crate) value: T,
+}
+
+/// A message that was not drawn because something in it is NaN, infinite, absurdly far away or not of unit length, or
+/// because it names no frame.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct NotDrawable;
+
+/// The newest of every topic of one device.
+#[derive(Debug, Default)]
+pub(crate) struct DeviceView {
+    contact: Option<(Instant, Contact)>,
+    force_n: Option<(Instant, InFrame<DVec3>)>,
+    pose: Option<(Instant, InFrame<Pose>)>,
+    law: Option<ContactLaw>,
+    revision: u64,
+}
+
+impl DeviceView {
+    pub(crate) fn hear_contact(&mut self, now: Instant, contact: Contact) -> Result<(), NotDrawable> {
+        if !contact.is_drawable() {
+            return Err(NotDrawable);
+        }
+        self.contact = Some((now, contact));
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// The force on the hand.
+    pub(crate) fn hear_force(&mut self, now: Instant, force_n: InFrame<DVec3>) -> Result<(), NotDrawable> {
+        if force_n.frame_id.is_empty() || !is_drawable(force_n.value) {
+            return Err(NotDrawable);
+        }
+        self.force_n = Some((now, force_n));
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// The device's pose: `[x, y, z, qx, qy, qz, qw]`.
+    pub(crate) fn hear_pose(
+        &mut self,
+        now: Instant,
+        frame_id: String,
+        pose: [f64; 7],
+    ) -> Result<(), NotDrawable> {
+        let Ok(value) = Pose::from_array(pose) else { return Err(NotDrawable) };
+        if frame_id.is_empty() || !is_drawable(value.translation) {
+            return Err(NotDrawable);
+        }
+        self.pose = Some((now, InFrame { frame_id, value }));
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// The law that the chains are drawn from.
+    pub(crate) fn hear_law(&mut self, law: ContactLaw) {
+        self.law = Some(law);
+        self.revision += 1;
+    }
+
+    /// Grows with everything heard.
+    pub(crate) fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// The contact, unless it is old.
+    pub(crate) fn contact(&self, now: Instant) -> Option<&Contact> {
+        fresh(&self.contact, now)
+    }
+
+    /// The contact while something is touched.
+    pub(crate) fn touch(&self, now: Instant) -> Option<&Contact> {
+        self.contact(now).filter(|contact| contact.mode != Mode::None)
+    }
+
+    /// The force on the hand, unless it is old.
+    pub(crate) fn force_n(&self, now: Instant) -> Option<&InFrame<DVec3>> {
+        fresh(&self.force_n, now)
+    }
+
+    /// Where the probe is: as the model has it (which knows the clutch and the motion's scale), turned like the
+    /// device; before the model answers, as the device has it.
+    pub(crate) fn probe(&self, now: Instant) -> Option<InFrame<Pose>> {
+        let pose = fresh(&self.pose, now);
+        let Some(contact) = self.contact(now) else { return pose.cloned() };
+        let turned = pose.filter(|pose| pose.frame_id == contact.frame_id);
+        let rotation = turned.map_or(Pose::IDENTITY.rotation, |pose| pose.value.rotation);
+        let value = Pose { translation: contact.probe_m, rotation };
+        Some(InFrame { frame_id: contact.frame_id.clone(), value })
+    }
+
+    /// The chains, stretched as a contact says; none before a law was heard.
+    pub(crate) fn chains(&self, contact: &Contact) -> Vec<ChainShape> {
+        let chains = self.law.iter().flat_map(ContactLaw::chains);
+        chains
+            .map(|chain| {
+                let (rest, now) = (chain.parameters(), chain.response(-contact.depth_m));
+                ChainShape {
+                    rod_length_m: rest.rod_length_m,
+                    angle_rad: rest.angle_rad + now.d_theta_rad,
+                    dl_1_m: now.dl_1_m,
+                    ratio: rest.ratio,
+                    units: rest.units,
+                }
+            })
+            .collect()
+    }
+}
+
+fn fresh<T>(heard: &Option<(Instant, T)>, now: Instant) -> Option<&T> {
+    heard.as_ref().filter(|(when, _)| now.duration_since(*when) < FORGET_AFTER).map(|(_, value)| value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rhombus_chain::{ChainParameters, Formulation};
+
+    fn contact(mode: Mode) -> Contact {
+        Contact {
+            frame_id: "base".to_owned(),
+            mode,
+            saturated: false,
+            clutched: false,
+            probe_m: DVec3::new(0.003, 0.0, 0.101),
+            proxy_m: DVec3::new(0.0, 0.0, 0.1),
+            normal: DVec3::Z,
+            depth_m: 0.004,
+        }
+    }
+
+    #[test]
+    fn the_contact_point_is_moved_by_exactly_the_depth() {
+        assert_eq!(contact(Mode::Touch).displaced_m(1.0), DVec3::new(0.0, 0.0, 0.1 - 0.004));
+        assert_eq!(contact(Mode::Grasp).displaced_m(1.0), DVec3::new(0.003, 0.0, 0.1 - 0.004));
+    }
+
+    #[test]
+    fn drawn_units_add_up_to_the_depth() {
+        let parameters = ChainParameters {
+            rod_length_m: 0.01,
+            angle_rad: std::f64::consts::FRAC_PI_6,
+            ratio: 0.8,
+            units: 12,
+            normal_stiffness_n_per_m: 500.0,
+            tangential_stiffness_n_per_m: 100.0,
+            tangential_growth: 10.0,
+            weight: 1.0,
+            pitch_m: 0.02,
+        };
+        let mut view = DeviceView::default();
+        let touch = Contact { depth_m: 0.006, ..contact(Mode::Touch) };
+        assert!(view.chains(&touch).is_empty());
+        view.hear_law(ContactLaw::new(Formulation::Energy, &[parameters]).unwrap());
+        let shape = view.chains(&touch)[0];
+        // Golden values of the model: dl_1, d_theta.
+        assert!((shape.dl_1_m - -0.0012885483697159).abs() < 1e-15);
+        assert!((shape.angle_rad - (parameters.angle_rad - 0.0729245035346008)).abs() < 1e-12);
+        let sum: f64 = (0..12).map(|i| shape.dl_1_m * 0.8_f64.powi(i)).sum();
+        assert!((sum + touch.depth_m).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_refused_and_changes_nothing() {
+        let (mut view, now) = (DeviceView::default(), Instant::now());
+        view.hear_contact(now, contact(Mode::Touch)).unwrap();
+        let revision = view.revision();
+        let wrong = [
+            Contact { probe_m: DVec3::NAN, ..contact(Mode::None) },
+            Contact { proxy_m: DVec3::new(0.0, f64::INFINITY, 0.0), ..contact(Mode::Touch) },
+            Contact { normal: DVec3::ZERO, ..contact(Mode::Touch) },
+            Contact { depth_m: f64::NAN, ..contact(Mode::Grasp) },
+            Contact { depth_m: 1e9, ..contact(Mode::Grasp) },
+            Contact { frame_id: String::new(), ..contact(Mode::None) },
+        ];
+        for wrong in wrong {
+            assert_eq!(view.hear_contact(now, wrong), Err(NotDrawable));
+        }
+        let base = || "base".to_owned();
+        assert!(view.hear_force(now, InFrame { frame_id: base(), value: DVec3::NAN }).is_err());
+        assert!(view.hear_pose(now, base(), [0.0; 7]).is_err());
+        assert!(view.hear_pose(now, base(), [0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0, 1.0]).is_err());
+        assert_eq!((view.revision(), view.contact(now)), (revision, Some(&contact(Mode::Touch))));
+        assert!(view.force_n(now).is_none());
+    }
+
+    #[test]
+    fn a_silent_device_is_forgotten() {
+        let (mut view, start) = (DeviceView::default(), Instant::now());
+        view.hear_contact(start, contact(Mode::Touch)).unwrap();
+        assert!(view.touch(start + Duration::from_millis(900)).is_some());
+        let late = start + Duration::from_millis(1100);
+        assert!(view.touch(late).is_none() && view.probe(late).is_none());
+    }
+
+    #[test]
+    fn the_probe_stands_where_the_model_has_it_and_turns_as_the_device_does() {
+        let (mut view, now) = (DeviceView::default(), Instant::now());
+        view.hear_pose(now, "base".to_owned(), [9.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]).unwrap();
+        assert_eq!(view.probe(now).unwrap().value.translation, DVec3::new(9.0, 0.0, 0.0));
+        view.hear_contact(now, contact(Mode::None)).unwrap();
+        let probe = view.probe(now).unwrap();
+        assert_eq!((probe.value.translation, probe.value.rotation.x), (contact(Mode::None).probe_m, 1.0));
+    }
+}

@@ -1,0 +1,172 @@
+//! Between ROS messages and plain data.
+
+use glam::DVec3;
+use node_kit::{convert, frames};
+use r2r::rhombus_haptics_msgs::msg::{ContactLaw as ContactLawMessage, ContactState};
+use r2r::shape_msgs::msg::Mesh;
+use r2r::std_msgs::msg::{ColorRGBA, Header};
+use r2r::visualization_msgs::msg::{Marker, MarkerArray};
+use rhombus_chain::{ChainParameters, ContactLaw, Formulation, Pose};
+
+use crate::colour::Colour;
+use crate::device_view::{Contact, Mode};
+use crate::drawing::{Drawing, Key, Shape};
+use crate::picture::Update;
+use crate::surface::{BodySurface, MeshError};
+
+// r2r gives every constant of a message a type of its own.
+const CONTACT: u8 = ContactState::CONTACT as u8;
+const GRASP: u8 = ContactState::GRASP as u8;
+const PUBLISHED: u8 = ContactLawMessage::PUBLISHED as u8;
+const ENERGY: u8 = ContactLawMessage::ENERGY as u8;
+const TRIANGLE_LIST: i32 = Marker::TRIANGLE_LIST as i32;
+const LINE_LIST: i32 = Marker::LINE_LIST as i32;
+const SPHERE: i32 = Marker::SPHERE as i32;
+const SPHERE_LIST: i32 = Marker::SPHERE_LIST as i32;
+const ARROW: i32 = Marker::ARROW as i32;
+const ADD: i32 = Marker::ADD as i32;
+const DELETE: i32 = Marker::DELETE as i32;
+
+/// The rest surface of a latched mesh with this topology version.
+pub(crate) fn surface(mesh: &Mesh, topology_version: u32) -> Result<BodySurface, MeshError> {
+    let vertices = mesh.vertices.iter().map(convert::dvec3).collect();
+    // A triangle always has three corners; r2r makes the fixed-size array a Vec.
+    let corners = |indices: &[u32]| [indices[0], indices[1], indices[2]];
+    let triangles = mesh.triangles.iter().map(|triangle| corners(&triangle.vertex_indices)).collect();
+    BodySurface::new(vertices, triangles, topology_version)
+}
+
+/// A contact, unchecked: whoever shows it judges it. A mode that is not known touches nothing.
+pub(crate) fn contact(state: &ContactState) -> Contact {
+    Contact {
+        frame_id: frames::frame_of_message(&state.header.frame_id).to_owned(),
+        mode: match state.mode {
+            CONTACT => Mode::Touch,
+            GRASP => Mode::Grasp,
+            _ => Mode::None,
+        },
+        saturated: state.saturated,
+        clutched: state.clutched,
+        probe_m: convert::dvec3(&state.probe),
+        proxy_m: convert::dvec3(&state.proxy),
+        normal: convert::dvec3_of_vector(&state.normal),
+        depth_m: state.depth,
+    }
+}
+
+/// The chains of a contact law; none when the arrays do not make chains.
+pub(crate) fn contact_law(message: &ContactLawMessage) -> Option<ContactLaw> {
+    let count = message.rod_length.len();
+    let chains: Option<Vec<ChainParameters>> = (0..count)
+        .map(|i| {
+            let rod_length_m = *message.rod_length.get(i)?;
+            Some(ChainParameters {
+                rod_length_m,
+                angle_rad: *message.angle.get(i)?,
+                ratio: *message.ratio.get(i)?,
+                units: *message.units.get(i)?,
+                normal_stiffness_n_per_m: *message.normal_stiffness.get(i)?,
+                tangential_stiffness_n_per_m: *message.tangential_stiffness.get(i)?,
+                tangential_growth: *message.tangential_growth.get(i)?,
+                // These two shape the surface only; the drawing of the chains asks for neither.
+                weight: 1.0 / count as f64,
+                pitch_m: rod_length_m,
+            })
+        })
+        .collect();
+    let formulation = match message.formulation {
+        PUBLISHED => Formulation::Published,
+        ENERGY => Formulation::Energy,
+        _ => return None,
+    };
+    ContactLaw::new(formulation, &chains?).ok()
+}
+
+/// Markers for an update. Their stamp is zero: a viewer takes the newest transform it has, which a picture wants.
+pub(crate) fn marker_array(update: Update) -> MarkerArray {
+    let deleted = update.deleted.into_iter().map(deletion);
+    MarkerArray { markers: deleted.chain(update.drawings.into_iter().map(marker)).collect() }
+}
+
+fn deletion(key: Key) -> Marker {
+    Marker { ns: key.thing.name().to_owned(), id: key.id, action: DELETE, ..Marker::default() }
+}
+
+fn marker(drawing: Drawing) -> Marker {
+    let Drawing { key, frame_id, shape, mut points_m, colour: whole, colours } = drawing;
+    let (type_, scale) = match shape {
+        Shape::Triangles => (TRIANGLE_LIST, DVec3::ONE),
+        Shape::Lines { width_m } => (LINE_LIST, DVec3::new(width_m, 0.0, 0.0)),
+        Shape::Sphere { diameter_m } => (SPHERE, DVec3::splat(diameter_m)),
+        Shape::Spheres { diameter_m } => (SPHERE_LIST, DVec3::splat(diameter_m)),
+        Shape::Arrow { shaft_m, head_m, head_length_m } => {
+            (ARROW, DVec3::new(shaft_m, head_m, head_length_m))
+        }
+    };
+    let mut pose = Pose::IDENTITY;
+    if let Shape::Sphere { .. } = shape {
+        pose.translation = points_m.pop().unwrap_or_default();
+    }
+    Marker {
+        header: Header { frame_id, ..Header::default() },
+        ns: key.thing.name().to_owned(),
+        id: key.id,
+        type_,
+        action: ADD,
+        pose: convert::pose(&pose),
+        scale: convert::vector(scale),
+        color: colour(whole),
+        points: points_m.into_iter().map(convert::point).collect(),
+        colors: colours.into_iter().map(colour).collect(),
+        ..Marker::default()
+    }
+}
+
+fn colour(colour: Colour) -> ColorRGBA {
+    ColorRGBA { r: colour.r, g: colour.g, b: colour.b, a: colour.a }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{self, Thing};
+
+    #[test]
+    fn a_sphere_stands_at_its_pose_and_a_list_at_its_points() {
+        let sphere = marker(drawing::probe(1, "base", DVec3::new(1.0, 2.0, 3.0), 0.005, false));
+        assert_eq!((sphere.type_, sphere.id, sphere.ns.as_str()), (SPHERE, 1, "probe"));
+        assert_eq!((sphere.pose.position.y, sphere.pose.orientation.w, sphere.scale.x), (2.0, 1.0, 0.01));
+        assert!(sphere.points.is_empty());
+        let arrow = drawing::force(0, "base", DVec3::ZERO, DVec3::Z, 0.005, false).map(marker).unwrap();
+        assert_eq!((arrow.type_, arrow.points.len(), arrow.scale.x), (ARROW, 2, 0.002));
+    }
+
+    #[test]
+    fn deletions_come_first_and_name_what_they_delete() {
+        let update = Update {
+            drawings: vec![drawing::probe(0, "base", DVec3::ZERO, 0.005, false)],
+            deleted: vec![Key { thing: Thing::Chains, id: 2 }],
+        };
+        let markers = marker_array(update).markers;
+        assert_eq!((markers[0].action, markers[0].ns.as_str(), markers[0].id), (DELETE, "chains", 2));
+        assert_eq!(markers[1].action, ADD);
+    }
+
+    #[test]
+    fn arrays_that_make_no_chain_make_no_law() {
+        let law = ContactLawMessage {
+            rod_length: vec![0.01],
+            angle: vec![0.5],
+            ratio: vec![0.8],
+            units: vec![12],
+            normal_stiffness: vec![500.0],
+            tangential_stiffness: vec![100.0],
+            tangential_growth: vec![10.0],
+            ..ContactLawMessage::default()
+        };
+        assert_eq!(contact_law(&law).map(|law| law.chains().len()), Some(1));
+        assert_eq!(contact_law(&ContactLawMessage { angle: Vec::new(), ..law.clone() }), None);
+        assert_eq!(contact_law(&ContactLawMessage { ratio: vec![f64::NAN], ..law.clone() }), None);
+        assert_eq!(contact_law(&ContactLawMessage::default()), None);
+    }
+}

@@ -1,0 +1,119 @@
+//! Where body, devices and probes stand, for tf.
+
+use node_kit::{NodeKit, PublishError, Publisher, frames, topics, transform_stamped};
+use r2r::tf2_msgs::msg::TFMessage;
+use rhombus_chain::Pose;
+use scene::Scene;
+
+use crate::device_view::InFrame;
+
+/// Last part of the frame of a device's probe.
+const PROBE: &str = "probe";
+
+/// Publishes `/tf_static` once and `/tf` for the probes.
+pub(crate) struct Transforms {
+    moving: Publisher<TFMessage>,
+    // Held: a latched message lives as long as its publisher.
+    _fixed: Publisher<TFMessage>,
+    probe_frames: Vec<String>,
+}
+
+impl Transforms {
+    /// Say where body and devices stand.
+    pub(crate) fn new(kit: &mut NodeKit, scene: &Scene) -> anyhow::Result<Transforms> {
+        let moving = kit.publish(&topics::TF, "")?;
+        let fixed = kit.publish(&topics::TF_STATIC, "")?;
+        fixed.publish(&fixed_transforms(kit.namespace(), scene))?;
+        let devices = &scene.session.devices;
+        let probe_frames =
+            devices.iter().map(|device| frame_of_device(kit.namespace(), device, PROBE)).collect();
+        Ok(Transforms { moving, _fixed: fixed, probe_frames })
+    }
+
+    /// Whether anybody would hear where the probes are.
+    pub(crate) fn are_read(&self) -> bool {
+        self.moving.readers() > 0
+    }
+
+    /// Say where the probes are: for each device its pose and the stamp it was measured at.
+    pub(crate) fn publish_probes(&self, probes: &[Option<(i64, InFrame<Pose>)>]) -> Result<(), PublishError> {
+        let transforms: Vec<_> = probes
+            .iter()
+            .zip(&self.probe_frames)
+            .filter_map(|(probe, frame)| {
+                let (stamp_ns, probe) = probe.as_ref()?;
+                Some(transform_stamped(*stamp_ns, &probe.frame_id, frame, &probe.value))
+            })
+            .collect();
+        if transforms.is_empty() {
+            return Ok(());
+        }
+        self.moving.publish(&TFMessage { transforms })
+    }
+}
+
+fn frame_of_device(namespace: &str, device: &str, parameter: &str) -> String {
+    frames::frame_id(&format!("{namespace}/{device}").replace("//", "/"), parameter)
+}
+
+/// The body and the devices in the scene. A device whose frame's name is given verbatim ("/PSM1_base") stands in
+/// somebody else's tree, unless the parameters say where it stands: a frame with two parents would break tf.
+fn fixed_transforms(namespace: &str, scene: &Scene) -> TFMessage {
+    let own = |name: &str| frames::frame_id(namespace, name);
+    let scene_frame = own(&scene.session.scene_frame_id);
+    let mut transforms =
+        vec![transform_stamped(0, &scene_frame, &own(&scene.body.frame_id), &scene.body.scene_from_body)];
+    let is_ours =
+        !scene.device.frame_id.starts_with('/') || scene.parameters().is_given("device.scene_from_device");
+    let mut device_frames: Vec<String> = scene
+        .session
+        .devices
+        .iter()
+        .map(|device| frame_of_device(namespace, device, &scene.device.frame_id))
+        .filter(|frame| is_ours && *frame != scene_frame)
+        .collect();
+    device_frames.dedup();
+    let pose = &scene.device.scene_from_device;
+    transforms.extend(device_frames.iter().map(|frame| transform_stamped(0, &scene_frame, frame, pose)));
+    TFMessage { transforms }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::{Origin, Value};
+
+    fn frames(namespace: &str, values: &[(&str, Value)]) -> Vec<(String, String)> {
+        let values = values.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
+        let scene = Scene::from_values(values, Origin::named("a test")).unwrap();
+        let transforms = fixed_transforms(namespace, &scene).transforms;
+        transforms.into_iter().map(|t| (t.header.frame_id, t.child_frame_id)).collect()
+    }
+
+    fn pairs(expected: &[(&str, &str)]) -> Vec<(String, String)> {
+        expected.iter().map(|(parent, child)| ((*parent).to_owned(), (*child).to_owned())).collect()
+    }
+
+    #[test]
+    fn body_and_device_stand_in_the_scene_of_their_namespace() {
+        assert_eq!(frames("/", &[]), pairs(&[("scene", "body"), ("scene", "device_base")]));
+        let left = pairs(&[("left/scene", "left/body"), ("left/scene", "left/device_base")]);
+        assert_eq!(frames("/left", &[]), left);
+    }
+
+    #[test]
+    fn each_device_has_its_frame() {
+        let devices = Value::StringArray(vec!["left".to_owned(), "right".to_owned()]);
+        let expected = [("scene", "body"), ("scene", "left/device_base"), ("scene", "right/device_base")];
+        assert_eq!(frames("/", &[("devices", devices)]), pairs(&expected));
+    }
+
+    #[test]
+    fn a_frame_of_somebody_elses_tree_gets_no_second_parent() {
+        let base = ("device.frame_id", Value::String("/PSM1_base".to_owned()));
+        assert_eq!(frames("/", std::slice::from_ref(&base)), pairs(&[("scene", "body")]));
+        let pose = Value::DoubleArray(vec![0.0, 0.0, 0.1, 0.0, 0.0, 0.0, 1.0]);
+        let given = [base, ("device.scene_from_device", pose)];
+        assert_eq!(frames("/", &given), pairs(&[("scene", "body"), ("scene", "PSM1_base")]));
+    }
+}
