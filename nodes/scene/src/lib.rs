@@ -11,6 +11,7 @@ mod parameters;
 mod scene;
 pub mod schema;
 mod sections;
+mod sites;
 mod value;
 mod yaml;
 
@@ -27,4 +28,5 @@ pub use scene::{
 };
 pub use schema::{Check, DefaultValue, Kind, Length, Node, ParameterSpec, schema};
 pub use sections::Reader;
+pub use sites::{Site, sites};
 pub use value::Value;

@@ -18,7 +18,7 @@ use super::round::RoundBody;
 pub(super) struct Liver;
 
 const HALF_LENGTH_M: f64 = 0.100;
-const DOME: f64 = 0.45;
+const DOME: f64 = 0.36;
 const FORWARD_M: f64 = 0.012;
 
 impl Liver {
@@ -29,8 +29,8 @@ impl Liver {
 
     /// Height scale, m: falls to the left and to the front, with the groove between the lobes.
     fn height(x: f64, y: f64) -> f64 {
-        let lobes = 0.060 - 0.040 * to_the_left(x);
-        let front = 1.0 - 0.30 * y;
+        let lobes = 0.056 - 0.037 * to_the_left(x);
+        let front = 1.0 - 0.22 * y;
         let groove = 1.0 - 0.14 * libm::exp(-square((x - 0.30) / 0.14));
         lobes * front * groove
     }

@@ -1,10 +1,21 @@
-//! `recording.*` and `replay.*`: what is written to and played from recordings.
+//! `bag_replay.mode`, `recording.*` and `replay.*`: what is written to and played from recordings.
 
 use super::{Check, DefaultValue, Kind, Length, Node, ParameterSpec};
 
 const RECORDER: &[Node] = &[Node::BagReplay];
 
 pub(super) const PARAMETERS: &[ParameterSpec] = &[
+    ParameterSpec {
+        name: "bag_replay.mode",
+        kind: Kind::String,
+        unit: "",
+        default: DefaultValue::String("record"),
+        check: Check::OneOf(&["record", "play"]),
+        length: Length::Any,
+        live: false,
+        owners: RECORDER,
+        help: "Write a recording, or play one.",
+    },
     ParameterSpec {
         name: "recording.directory",
         kind: Kind::String,
@@ -15,6 +26,17 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         live: false,
         owners: RECORDER,
         help: "Folder that gets one sub-folder for each recording.",
+    },
+    ParameterSpec {
+        name: "recording.name",
+        kind: Kind::String,
+        unit: "",
+        default: DefaultValue::String(""),
+        check: Check::Any,
+        length: Length::Any,
+        live: false,
+        owners: RECORDER,
+        help: "Name of the recording's sub-folder, which must not exist; \"\" takes namespace, date and time (UTC).",
     },
     ParameterSpec {
         name: "recording.topics",
@@ -48,5 +70,27 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         live: false,
         owners: RECORDER,
         help: "Speed of replay; 1 plays at the recorded speed.",
+    },
+    ParameterSpec {
+        name: "replay.topics",
+        kind: Kind::StringArray,
+        unit: "",
+        default: DefaultValue::Strings(&[""]),
+        check: Check::Any,
+        length: Length::AtLeastOne,
+        live: false,
+        owners: RECORDER,
+        help: "Topics to play, as far as the recording has them; [\"\"] plays every topic.",
+    },
+    ParameterSpec {
+        name: "replay.wait_for_subscribers",
+        kind: Kind::Double,
+        unit: "s",
+        default: DefaultValue::Double(0.0),
+        check: Check::Within(0.0, 3600.0),
+        length: Length::Any,
+        live: false,
+        owners: RECORDER,
+        help: "Longest wait, before the first message, until every played reliable topic has a subscriber; 0 does not wait.",
     },
 ];

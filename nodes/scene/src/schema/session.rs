@@ -22,7 +22,7 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         check: Check::Any,
         length: Length::AtLeastOne,
         live: false,
-        owners: &[Node::Deformation, Node::Visualization],
+        owners: &[Node::Deformation, Node::Visualization, Node::BagReplay],
         help: "Sub-namespaces of the devices' topics, one entry for each device; \"\" is the node's own namespace.",
     },
     ParameterSpec {
