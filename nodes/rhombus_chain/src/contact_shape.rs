@@ -42,8 +42,9 @@ struct ChainShape {
     ln_ratio: f64,
     units: f64,
     pitch_m: f64,
-    /// Arc over which the tangential motion rises from its zero at the contact.
-    ramp_m: f64,
+    units_per_m: f64,
+    /// One over the arc in which the tangential motion rises from its zero at the contact.
+    ramp_per_m: f64,
     /// `dl_c` when pressed, negative, m.
     compression_edge_m: f64,
     /// `dl_c` when pulled; `None`: no unit reaches the boundary's turn, only the first one moves.
@@ -55,13 +56,13 @@ struct ChainShape {
     half_dw_m: f64,
 }
 
-/// `g(s)`, prepared for one exponential per evaluation without cancellation.
+/// `g`, prepared for one exponential per evaluation without cancellation; `scale` is `1 / (1 - q^m)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Falloff {
-    /// `q^m` well below 1.
-    Steep { edge: f64 },
-    /// `q^m` near 1, by its distance from 1: `q^m - 1`.
-    Flat { edge_minus_1: f64 },
+    /// `edge = q^m`, well below 1.
+    Steep { edge: f64, scale: f64 },
+    /// `drop = 1 - q^m`, for `q^m` near 1.
+    Flat { drop: f64, scale: f64 },
 }
 
 impl ContactShape {
@@ -111,7 +112,7 @@ impl ContactShape {
     /// falling to 0 at the boundary. RT safe.
     #[inline]
     pub fn share(&self, s_m: f64) -> f64 {
-        self.sum(|chain| chain.weight * chain.falloff(s_m / chain.pitch_m), s_m)
+        self.sum(|chain| chain.weight * chain.falloff(s_m * chain.units_per_m), s_m)
     }
 
     /// `u(s)`, displacement along the outward contact normal, m; exactly `DL` at the contact. RT safe.
@@ -131,9 +132,9 @@ impl ContactShape {
     pub fn displacement(&self, s_m: f64, arc_m: f64) -> Displacement {
         let (mut share, mut tangential_m) = (0.0, 0.0);
         for chain in &self.chains {
-            let weighted = chain.weight * chain.falloff(s_m / chain.pitch_m);
+            let weighted = chain.weight * chain.falloff(s_m * chain.units_per_m);
             share += weighted;
-            tangential_m += chain.half_dw_m * weighted * (arc_m / chain.ramp_m).min(1.0);
+            tangential_m += chain.half_dw_m * weighted * (arc_m * chain.ramp_per_m).min(1.0);
         }
         self.displaced(if s_m > 0.0 { share } else { 1.0 }, tangential_m)
     }
@@ -209,6 +210,7 @@ impl ContactShape {
 impl ChainShape {
     fn new(chain: &Chain, surface: &SurfaceParameters, weights: f64) -> Self {
         let parameters = chain.parameters();
+        let ln_ratio = libm::log(parameters.ratio);
         let (angle, cutoff) = (parameters.angle_rad, surface.cutoff);
         // sin(theta + d) - sin(theta) = 2 cos(theta + d/2) sin(d/2)
         let edge_m = |turn_rad: f64| {
@@ -217,14 +219,15 @@ impl ChainShape {
         let reachable = angle * (1.0 + cutoff) < std::f64::consts::FRAC_PI_2;
         Self {
             weight: parameters.weight / weights,
-            ln_ratio: libm::log(parameters.ratio),
+            ln_ratio,
             units: f64::from(parameters.units),
             pitch_m: parameters.pitch_m,
-            ramp_m: parameters.pitch_m.max(surface.contact_radius_m),
+            units_per_m: 1.0 / parameters.pitch_m,
+            ramp_per_m: 1.0 / parameters.pitch_m.max(surface.contact_radius_m),
             compression_edge_m: edge_m(-angle * cutoff),
             extension_edge_m: reachable.then(|| edge_m(angle * cutoff)),
             boundary_units: 1.0,
-            falloff: Falloff::Steep { edge: 0.0 },
+            falloff: Falloff::new(ln_ratio),
             half_dw_m: 0.0,
         }
     }
@@ -258,12 +261,11 @@ impl ChainShape {
             return 0.0;
         }
         let exponent = units * self.ln_ratio;
-        match self.falloff {
-            Falloff::Steep { edge } => ((libm::exp(exponent) - edge) / (1.0 - edge)).max(0.0),
-            Falloff::Flat { edge_minus_1 } => {
-                ((edge_minus_1 - libm::expm1(exponent)) / edge_minus_1).max(0.0)
-            }
-        }
+        let share = match self.falloff {
+            Falloff::Steep { edge, scale } => (libm::exp(exponent) - edge) * scale,
+            Falloff::Flat { drop, scale } => (libm::expm1(exponent) + drop) * scale,
+        };
+        share.max(0.0)
     }
 }
 
@@ -271,10 +273,12 @@ impl Falloff {
     /// `exponent = m ln q`.
     fn new(exponent: f64) -> Self {
         const FLAT_ABOVE: f64 = -0.5;
+        let drop = -libm::expm1(exponent);
+        let scale = 1.0 / drop;
         if exponent > FLAT_ABOVE {
-            Self::Flat { edge_minus_1: libm::expm1(exponent) }
+            Self::Flat { drop, scale }
         } else {
-            Self::Steep { edge: libm::exp(exponent) }
+            Self::Steep { edge: libm::exp(exponent), scale }
         }
     }
 }

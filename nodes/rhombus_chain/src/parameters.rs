@@ -96,8 +96,8 @@ impl ChainParameters {
             (
                 "tangential_stiffness",
                 tangential,
-                tangential == 0.0 || stiffness.contains(&tangential),
-                "0, or 1e-12 to 1e18 N/m",
+                (0.0..=*stiffness.end()).contains(&tangential),
+                "0 (no spring) to 1e18 N/m",
             ),
             (
                 "tangential_growth",

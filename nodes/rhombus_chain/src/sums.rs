@@ -56,3 +56,58 @@ fn geometric_sum(r: DoubleDouble, n: u32) -> Option<f64> {
     }
     Some(sum.value())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Term by term from the smallest end, with the rounding of every product and sum carried along.
+    fn term_by_term(r: DoubleDouble, n: u32) -> f64 {
+        let mut sum = DoubleDouble::ONE;
+        for _ in 1..n {
+            sum = DoubleDouble::ONE.plus(sum.times(r));
+        }
+        sum.value()
+    }
+
+    #[test]
+    fn doubling_gives_what_adding_term_by_term_gives() {
+        let growths = [0.3, 0.999_999, 1.0 - f64::EPSILON / 2.0, 1.0, 1.0 + f64::EPSILON, 1.000_3];
+        for r in growths.map(|r| DoubleDouble::product(r, 1.0)) {
+            for n in (1..=70).chain([127, 128, 129, 1000, 65_537, 999_999, 1_000_000]) {
+                assert_eq!(geometric_sum(r, n), Some(term_by_term(r, n)), "r = {r:?}, n = {n}");
+            }
+        }
+    }
+
+    #[test]
+    fn powers_of_two_are_summed_exactly() {
+        for n in 1..=53 {
+            assert_eq!(
+                geometric_sum(DoubleDouble::product(2.0, 1.0), n),
+                Some(libm::exp2(f64::from(n)) - 1.0)
+            );
+        }
+    }
+
+    #[test]
+    fn a_growth_that_the_ratio_nearly_undoes_keeps_its_digits_over_a_million_units() {
+        // From 120 digits: beta is 1 / ln(0.9^-2) as f64 rounds it, and q^2 e^(1/beta) = 1 - 2.4e-17.
+        let sums = ChainSums::new(0.9, 1_000_000, 4.745610790514953);
+        assert_eq!(sums.tangential, Some(999_999.999_988_129));
+        // q = 1 - 2^-53: all but one term short of n.
+        let sums = ChainSums::new(1.0 - f64::EPSILON / 2.0, 1_000_000, 1e6);
+        assert_eq!(sums.elongation, 999_999.999_944_488_9);
+    }
+
+    #[test]
+    fn what_a_machine_cannot_hold_is_no_number() {
+        assert_eq!(ChainSums::new(0.9, 2, 1e-3).tangential, None);
+        assert_eq!(ChainSums::new(0.9, 2, 1e-310).tangential, None);
+        assert_eq!(ChainSums::new(0.99, 1_000_000, 10.0).tangential, None);
+        assert_eq!(ChainSums::new(0.9, 1, 1e-310).tangential, Some(1.0));
+        assert!(ChainSums::new(0.9, 700, 1.0).tangential.is_some());
+        assert_eq!(ChainSums::new(0.9, 900, 1.0).tangential, None);
+        assert_eq!(ChainSums::new(1e-200, 1_000_000, 1e-2).tangential, Some(1.0));
+    }
+}
