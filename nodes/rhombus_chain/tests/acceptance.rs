@@ -18,10 +18,10 @@ type Case<P> = (&'static str, &'static [f64], fn(&mut P, f64));
 
 #[test]
 fn a_value_out_of_range_is_refused_by_its_scene_name_with_what_is_accepted() {
-    let half_pi = std::f64::consts::FRAC_PI_2;
+    const HALF_PI: f64 = std::f64::consts::FRAC_PI_2;
     let cases: [Case<ChainParameters>; 8] = [
         ("rod_length", &[0.0, -0.01, 1e13], |chain, value| chain.rod_length_m = value),
-        ("angle", &[0.0, -0.5, half_pi, 2.0], |chain, value| chain.angle_rad = value),
+        ("angle", &[0.0, -0.5, HALF_PI, 2.0], |chain, value| chain.angle_rad = value),
         ("ratio", &[0.0, 1.0, -0.5, 1.5], |chain, value| chain.ratio = value),
         ("normal_stiffness", &[0.0, -1.0, 1e19], |chain, value| chain.normal_stiffness_n_per_m = value),
         ("tangential_stiffness", &[-1.0, -1e-300, 1e19], |chain, value| {
