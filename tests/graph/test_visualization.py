@@ -1,0 +1,459 @@
+"""The visualization node over DDS: what a viewer gets to see of a body, a contact and its chains.
+
+The real executable stands between a peer that speaks as device and model do and a peer that reads as RViz does.
+"""
+
+import json
+import math
+import os
+import signal
+import struct
+import subprocess
+import time
+import zlib
+from pathlib import Path
+
+import numpy
+import pytest
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Point, PoseStamped, WrenchStamped
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rhombus_haptics_msgs.msg import ContactLaw, ContactState, SurfaceDisplacement
+from shape_msgs.msg import Mesh, MeshTriangle
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker, MarkerArray
+
+EXECUTABLE = Path(__file__).resolve().parents[2] / "target" / "release" / "visualization"
+TIMEOUT_S = 20.0
+LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL, reliability=ReliabilityPolicy.RELIABLE)
+
+# One chain, as in the model's second golden value, pressed by 6 mm.
+ROD_LENGTH_M, ANGLE_RAD, RATIO, UNITS = 0.01, math.pi / 6, 0.8, 12
+DEPTH_M, GOLDEN_DL_1_M = 0.006, -0.0012885483697159
+
+
+@pytest.fixture(scope="module")
+def ros():
+    # A domain of its own: whatever else runs on this machine is not heard.
+    os.environ["ROS_DOMAIN_ID"] = str(1 + os.getpid() % 100)
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    rclpy.init(args=[])
+    yield
+    rclpy.shutdown()
+
+
+class Session:
+    """The node's process, and the peers around it in one rclpy node."""
+
+    def __init__(self, namespace, folder, parameters):
+        self.namespace = namespace
+        self.prefix = f"/{namespace}" if namespace else ""
+        self.log_path = folder / "visualization.log"
+        command = [str(EXECUTABLE), "--ros-args", "-r", f"__ns:=/{namespace}"]
+        for name, value in parameters.items():
+            command += ["-p", f"{name}:={value}"]
+        self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=self.log_path.open("wb"))
+        self.node = rclpy.create_node("peer", namespace=namespace)
+        self.publishers = {}
+        self.statuses = []
+        self.static_transforms = {}
+        self.transforms = {}
+        self.node.create_subscription(DiagnosticArray, "/diagnostics", self.hear_diagnostics, 10)
+        self.node.create_subscription(TFMessage, "/tf_static", self.hear_static, LATCHED)
+        self.wait_for(lambda: "ready:" in self.log(), "the node says ready")
+
+    def log(self):
+        return self.log_path.read_text(errors="replace")
+
+    def spin(self, seconds):
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0:
+            rclpy.spin_once(self.node, timeout_sec=left)
+
+    def wait_for(self, condition, what, meanwhile=lambda: None):
+        end = time.monotonic() + TIMEOUT_S
+        while not condition():
+            assert self.process.poll() is None, self.log()
+            assert time.monotonic() < end, f"not within {TIMEOUT_S:.0f} s: {what}\n{self.log()}"
+            meanwhile()
+            rclpy.spin_once(self.node, timeout_sec=0.02)
+
+    def publish(self, topic, message, qos=10):
+        if topic not in self.publishers:
+            self.publishers[topic] = self.node.create_publisher(type(message), topic, qos)
+            self.wait_for(lambda: self.publishers[topic].get_subscription_count() > 0, f"somebody reads {topic}")
+        self.publishers[topic].publish(message)
+
+    def hear_diagnostics(self, message):
+        self.statuses += [status for status in message.status if status.name.startswith(f"{self.prefix}/visualization:")]
+
+    def hear_static(self, message):
+        self.static_transforms.update({each.child_frame_id: each for each in message.transforms})
+
+    def value(self, key):
+        """A number from the newest diagnostics."""
+        newest = self.statuses[-1].values if self.statuses else []
+        return next((float(each.value) for each in newest if each.key == key), None)
+
+    def fresh_value(self, key):
+        """The same, from diagnostics made after this call."""
+        before = len(self.statuses)
+        self.wait_for(lambda: len(self.statuses) > before + 1, "new diagnostics")
+        return self.value(key)
+
+    def set(self, name, value):
+        client = self.node.create_client(SetParameters, f"{self.prefix}/visualization/set_parameters")
+        self.wait_for(client.service_is_ready, "the parameter service")
+        if isinstance(value, bool):
+            value = ParameterValue(type=ParameterType.PARAMETER_BOOL, bool_value=value)
+        else:
+            value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+        future = client.call_async(SetParameters.Request(parameters=[Parameter(name=name, value=value)]))
+        self.wait_for(future.done, f"{name} is answered")
+        return future.result().results[0]
+
+    def interrupt(self):
+        self.process.send_signal(signal.SIGINT)
+        return self.process.wait(TIMEOUT_S)
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+        self.node.destroy_node()
+
+
+class Viewer:
+    """Reads markers and keeps them as RViz does."""
+
+    def __init__(self, session):
+        self.session = session
+        self.shown = {}
+        self.arrivals = []
+        topic = session.node.create_subscription(MarkerArray, "markers", self.hear, 10)
+        self.close = lambda: session.node.destroy_subscription(topic)
+
+    def hear(self, message):
+        for marker in message.markers:
+            key = (marker.ns, marker.id)
+            self.arrivals.append((time.monotonic(), key))
+            if marker.action == Marker.DELETE:
+                self.shown.pop(key, None)
+            else:
+                self.shown[key] = marker
+
+    def names(self):
+        return {name for name, _ in self.shown}
+
+    def lowest(self):
+        """z of the body's lowest corner, m."""
+        return points(self.shown["body", 0])[:, 2].min() if "body" in self.names() else 0.0
+
+    def lightest(self):
+        """Brightness of the body's lightest corner."""
+        return max(colour.r + colour.g + colour.b for colour in self.shown["body", 0].colors)
+
+    def count(self, name):
+        return sum(key[0] == name for _, key in self.arrivals)
+
+
+@pytest.fixture
+def start(ros, tmp_path, request):
+    sessions = []
+
+    def started(**parameters):
+        namespace = f"{request.node.name.split('[')[0][-40:]}_{len(sessions)}"
+        sessions.append(Session(namespace, tmp_path, {k.replace("__", "."): v for k, v in parameters.items()}))
+        return sessions[-1]
+
+    yield started
+    for session in sessions:
+        session.close()
+
+
+def points(marker):
+    return numpy.array([[point.x, point.y, point.z] for point in marker.points])
+
+
+def grid_mesh(cells=20, size_m=0.1):
+    """A square plate in the plane z = 0 around the origin."""
+    line = numpy.linspace(-size_m / 2, size_m / 2, cells + 1)
+    vertices = [(x, y, 0.0) for y in line for x in line]
+    triangles = []
+    for row in range(cells):
+        for column in range(cells):
+            a = row * (cells + 1) + column
+            b, c, d = a + 1, a + cells + 1, a + cells + 2
+            triangles += [(a, b, d), (a, d, c)]
+    return vertices, triangles
+
+
+def mesh_message(vertices, triangles):
+    return Mesh(
+        vertices=[Point(x=x, y=y, z=z) for x, y, z in vertices],
+        triangles=[MeshTriangle(vertex_indices=list(triangle)) for triangle in triangles],
+    )
+
+
+def topology_version(vertices, triangles):
+    text = b"".join(struct.pack("<3d", *vertex) for vertex in vertices)
+    return zlib.crc32(text + b"".join(struct.pack("<3I", *triangle) for triangle in triangles))
+
+
+VERTICES, TRIANGLES = grid_mesh()
+CENTRE = len(VERTICES) // 2
+
+
+def displacement(vertex, z_m, version=None):
+    version = topology_version(VERTICES, TRIANGLES) if version is None else version
+    return SurfaceDisplacement(
+        topology_version=version, vertex=list(vertex), displacement=[value for _ in vertex for value in (0.0, 0.0, z_m)]
+    )
+
+
+def contact(mode=ContactState.CONTACT, frame_id="device_base"):
+    state = ContactState(mode=mode)
+    state.header.frame_id = frame_id
+    state.probe.z = 0.005 - DEPTH_M
+    if mode != ContactState.NONE:
+        state.normal.z, state.depth, state.force = 1.0, DEPTH_M, 0.4
+    return state
+
+
+def wrench(newton, frame_id="device_base"):
+    message = WrenchStamped()
+    message.header.frame_id = frame_id
+    message.wrench.force.z = newton
+    return message
+
+
+def pose(frame_id="device_base"):
+    message = PoseStamped()
+    message.header.frame_id = frame_id
+    message.header.stamp.sec = 12
+    message.pose.position.z = 0.005 - DEPTH_M
+    message.pose.orientation.w = 1.0
+    return message
+
+
+def contact_law():
+    return ContactLaw(
+        mode=ContactLaw.CONTACT, formulation=ContactLaw.ENERGY, rod_length=[ROD_LENGTH_M], angle=[ANGLE_RAD], ratio=[RATIO],
+        units=[UNITS], normal_stiffness=[500.0], tangential_stiffness=[100.0], tangential_growth=[10.0],
+    )
+
+
+def press(session, device=""):
+    """What device and model say while the probe presses."""
+    topic = (device + "/{}").format if device else "{}".format
+    session.publish(topic("contact_law"), contact_law())
+    session.publish(topic("contact_state"), contact())
+    session.publish(topic("servo_cf"), wrench(0.4))
+    session.publish(topic("measured_cp"), pose())
+
+
+def test_the_body_is_drawn_with_every_triangle_and_moves_with_its_displacement(start):
+    session = start(body__frame_id="organ")
+    session.publish("body_mesh", mesh_message(VERTICES, TRIANGLES), LATCHED)
+    viewer = Viewer(session)
+    session.wait_for(lambda: "body" in viewer.names(), "the body")
+    body = viewer.shown["body", 0]
+    assert (body.type, body.header.frame_id) == (Marker.TRIANGLE_LIST, f"{session.namespace}/organ")
+    assert len(body.points) == len(body.colors) == 3 * len(TRIANGLES)
+    expected = numpy.array([VERTICES[vertex] for triangle in TRIANGLES for vertex in triangle])
+    assert numpy.array_equal(points(body), expected)
+
+    before = viewer.count("body")
+    session.publish("surface_displacement", displacement([CENTRE, CENTRE + 1], -0.004))
+    session.wait_for(lambda: viewer.count("body") > before, "the deformed body")
+    moved = numpy.flatnonzero(points(viewer.shown["body", 0])[:, 2])
+    corners = [vertex for triangle in TRIANGLES for vertex in triangle]
+    assert {corners[i] for i in moved} == {CENTRE, CENTRE + 1}
+    assert numpy.allclose(points(viewer.shown["body", 0])[moved, 2], -0.004, atol=1e-9)
+    rest, pressed = (viewer.shown["body", 0].colors[i] for i in (0, moved[0]))
+    assert pressed.r + pressed.g + pressed.b > rest.r + rest.g + rest.b + 0.3, "more displacement is lighter"
+    assert session.fresh_value("moved_vertices") == 2
+
+
+def test_a_contact_is_drawn_and_deleted_when_the_probe_leaves(start):
+    session = start(probe__radius=0.005, visualization__force_scale=0.1)
+    viewer = Viewer(session)
+    complete = {"probe", "proxy", "force", "chains"}
+    session.wait_for(lambda: viewer.names() == complete, "the contact", lambda: press(session))
+    probe, arrow = viewer.shown["probe", 0], viewer.shown["force", 0]
+    assert (probe.type, probe.scale.x, probe.header.frame_id) == (Marker.SPHERE, 0.01, "device_base")
+    assert probe.pose.position.z == pytest.approx(0.005 - DEPTH_M, abs=1e-15)
+    assert arrow.type == Marker.ARROW
+    assert points(arrow)[1] - points(arrow)[0] == pytest.approx([0, 0, 0.04], abs=1e-15)
+    assert viewer.shown["proxy", 0].pose.position.z == 0.0
+
+    def leave():
+        session.publish("contact_state", contact(ContactState.NONE))
+        session.publish("servo_cf", wrench(0.0))
+
+    session.wait_for(lambda: viewer.names() == {"probe"}, "what belonged to the contact is deleted", leave)
+    session.wait_for(lambda: not viewer.shown, "the probe of a silent device is deleted")
+
+
+def test_the_chains_are_drawn_as_the_model_stretches_them(start):
+    session = start()
+    viewer = Viewer(session)
+    session.wait_for(lambda: "chains" in viewer.names(), "the chains", lambda: press(session))
+    rods, springs, masses = (viewer.shown["chains", i] for i in range(3))
+    assert [each.type for each in (rods, springs, masses)] == [Marker.LINE_LIST, Marker.LINE_LIST, Marker.SPHERE_LIST]
+    assert points(rods)[0] == pytest.approx([0, 0, -DEPTH_M], abs=1e-15), "the contact point moves by the depth"
+    # Four rods for each unit, one unit after the other, one row after the other.
+    ends = points(rods).reshape(-1, 4, 2, 3)
+    lengths = numpy.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
+    row = numpy.flatnonzero(numpy.isclose(lengths[:, 0], ROD_LENGTH_M))
+    units = int(row[1] - row[0])
+    assert len(ends) == 4 * units and 8 <= units <= UNITS
+    for unit in range(units):
+        assert lengths[unit::units] == pytest.approx(ROD_LENGTH_M * RATIO**unit, abs=1e-12)
+    tips = ends[:units, 1, 1]
+    heights = -DEPTH_M - numpy.cumsum(GOLDEN_DL_1_M * RATIO ** numpy.arange(units))
+    assert tips[:, 2] == pytest.approx(heights, abs=1e-12), "tips are as high as the model's units"
+    angle = math.asin(math.sin(ANGLE_RAD) + GOLDEN_DL_1_M / (2 * ROD_LENGTH_M))
+    diagonal = numpy.linalg.norm(ends[0, 1, 1] - ends[0, 0, 0])
+    assert diagonal == pytest.approx(2 * ROD_LENGTH_M * math.cos(angle), abs=1e-12)
+
+    assert session.set("visualization.show_chains", False).successful
+    session.wait_for(lambda: "chains" not in viewer.names(), "no chains", lambda: press(session))
+
+
+def test_nothing_is_drawn_while_nobody_reads_the_markers(start):
+    session = start()
+    session.publish("body_mesh", mesh_message(VERTICES, TRIANGLES), LATCHED)
+    for _ in range(20):
+        press(session)
+        session.publish("surface_displacement", displacement([CENTRE], -0.004))
+        session.spin(0.05)
+    assert session.fresh_value("pictures") == 0
+    viewer = Viewer(session)
+    session.wait_for(lambda: "body" in viewer.names(), "a picture for the first reader")
+    assert viewer.lowest() == pytest.approx(-0.004, abs=1e-9), "with what was heard before"
+    viewer.close()
+    session.fresh_value("pictures")
+    before = session.fresh_value("pictures")
+    assert session.fresh_value("pictures") == before > 0
+
+
+def test_an_idle_body_is_repeated_once_a_second_and_shown_to_a_late_reader_at_once(start):
+    session = start()
+    session.publish("body_mesh", mesh_message(VERTICES, TRIANGLES), LATCHED)
+    first = Viewer(session)
+    session.wait_for(lambda: first.count("body") >= 1, "the body")
+    session.spin(3.0)
+    assert 2 <= first.count("body") <= 5, "once a second, not at the rate of the pictures"
+    before = first.count("body")
+    late = Viewer(session)
+    session.wait_for(lambda: late.count("body") >= 1, "the body for the late reader")
+    assert first.count("body") <= before + 2
+
+
+def test_nan_and_displacements_of_another_mesh_are_counted_and_not_drawn(start):
+    session = start()
+    session.publish("body_mesh", mesh_message(VERTICES, TRIANGLES), LATCHED)
+    viewer = Viewer(session)
+    session.publish("surface_displacement", displacement([CENTRE], -0.004))
+    session.wait_for(lambda: viewer.lowest() < 0, "the deformed body")
+    good = points(viewer.shown["body", 0])
+
+    session.publish("surface_displacement", displacement([CENTRE], -0.002, version=1))
+    session.wait_for(lambda: session.value("other_mesh") == 1, "the other mesh is counted")
+    session.publish("surface_displacement", displacement([CENTRE], math.nan))
+    session.wait_for(lambda: session.value("not_drawable") == 1, "NaN in a displacement is counted")
+    session.publish("surface_displacement", displacement([len(VERTICES)], -0.002))
+    session.wait_for(lambda: session.value("not_drawable") == 2, "a vertex that is none is counted")
+    bad_state = contact()
+    bad_state.proxy.x = math.nan
+    session.publish("contact_state", bad_state)
+    session.wait_for(lambda: session.value("not_drawable") == 3, "NaN in a contact is counted")
+    bad_pose = pose()
+    bad_pose.pose.orientation.w = 0.5
+    session.publish("measured_cp", bad_pose)
+    session.wait_for(lambda: session.value("not_drawable") == 4, "a quaternion that is no rotation is counted")
+    assert any(status.level == b"\x01" for status in session.statuses), "diagnostics warn"
+
+    session.spin(1.5)
+    assert viewer.names() == {"body"}
+    assert numpy.array_equal(points(viewer.shown["body", 0]), good)
+    log = session.log()
+    assert "surface_displacement is not drawn" in log and "mesh 00000001" in log, log
+
+
+def test_a_mesh_that_cannot_be_drawn_is_counted_and_the_next_one_is_drawn(start):
+    session = start()
+    viewer = Viewer(session)
+    session.publish("body_mesh", mesh_message([(0, 0, 0), (math.nan, 0, 0), (0, 1, 0)], [(0, 1, 2)]), LATCHED)
+    session.wait_for(lambda: session.value("not_drawable") == 1, "the mesh is counted")
+    session.publish("body_mesh", mesh_message([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 3)]), LATCHED)
+    session.wait_for(lambda: session.value("not_drawable") == 2, "the second one too")
+    session.publish("body_mesh", mesh_message(VERTICES, TRIANGLES), LATCHED)
+    session.wait_for(lambda: "body" in viewer.names(), "the good mesh")
+
+
+def test_body_device_and_probe_have_their_transforms(start):
+    session = start(body__pose="[0.1,0.0,0.0,0.0,0.0,0.0,1.0]", device__scene_from_device="[0.0,0.0,0.3,0.0,0.0,0.0,1.0]")
+    ns = session.namespace
+    session.wait_for(lambda: len(session.static_transforms) >= 2, "static transforms")
+    body, device = session.static_transforms[f"{ns}/body"], session.static_transforms[f"{ns}/device_base"]
+    assert body.header.frame_id == device.header.frame_id == f"{ns}/scene"
+    assert (body.transform.translation.x, device.transform.translation.z) == (0.1, 0.3)
+
+    heard = []
+    session.node.create_subscription(TFMessage, "/tf", lambda message: heard.extend(message.transforms), 10)
+    session.wait_for(lambda: heard, "the probe", lambda: session.publish("measured_cp", pose(f"{ns}/device_base")))
+    probe = heard[0]
+    assert probe.child_frame_id == f"{ns}/probe"
+    assert (probe.header.frame_id, probe.header.stamp.sec) == (f"{ns}/device_base", 12)
+    assert probe.transform.translation.z == pytest.approx(0.005 - DEPTH_M, abs=1e-15)
+
+
+def test_each_device_has_its_own_markers_and_frames(start):
+    session = start(devices="[left,right]")
+    viewer = Viewer(session)
+    both = {(name, i) for name in ("probe", "force", "proxy") for i in (0, 1)} | {("chains", i) for i in range(6)}
+
+    def press_both():
+        press(session, "left")
+        press(session, "right")
+
+    session.wait_for(lambda: both <= viewer.shown.keys(), "two contacts", press_both)
+    assert {f"{session.namespace}/{side}/device_base" for side in ("left", "right")} <= session.static_transforms.keys()
+    session.wait_for(lambda: ("probe", 1) not in viewer.shown, "right is silent", lambda: press(session, "left"))
+    assert ("probe", 0) in viewer.shown
+
+
+def test_looks_can_be_changed_while_the_node_runs(start):
+    session = start()
+    session.publish("body_mesh", mesh_message(VERTICES, TRIANGLES), LATCHED)
+    session.publish("surface_displacement", displacement([CENTRE], -0.001))
+    viewer = Viewer(session)
+    session.wait_for(lambda: math.isclose(viewer.lowest(), -0.001, abs_tol=1e-9), "the deformed body")
+    before = viewer.lightest()
+    assert session.set("visualization.displacement_scale", 3.0).successful
+    session.wait_for(lambda: math.isclose(viewer.lowest(), -0.003, abs_tol=1e-8), "it is drawn three times as deep")
+    assert viewer.lightest() == before, "colours show the true displacement"
+    assert session.set("visualization.full_scale", 0.001).successful
+    session.wait_for(lambda: viewer.lightest() > before, "1 mm is now the end of the scale")
+    refused = session.set("visualization.full_scale", 0.0)
+    assert not refused.successful and "full_scale" in refused.reason
+    assert session.set("visualization.rate", 0.0).successful
+    session.spin(0.5)
+    count = viewer.count("body")
+    session.spin(1.5)
+    assert viewer.count("body") == count, "rate 0 publishes none"
+
+
+def test_sigint_ends_the_node_with_a_report(start):
+    session = start()
+    session.publish("body_mesh", mesh_message(VERTICES, TRIANGLES), LATCHED)
+    viewer = Viewer(session)
+    session.wait_for(lambda: "body" in viewer.names(), "the body")
+    assert session.interrupt() == 0, session.log()
+    report = json.loads(session.log().split("closing report: ")[1].splitlines()[0])
+    assert report["markers"] >= 1 and report["not_drawn"] == 0
