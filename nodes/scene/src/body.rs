@@ -3,10 +3,10 @@
 use std::fmt;
 
 use glam::DVec3;
-use rhombus_chain::{Body, SurfaceMesh};
+use rhombus_chain::Body;
 
 use crate::mesh_file::MeshFile;
-use crate::{MeshSource, Problem, Scene, SceneError, generate};
+use crate::{MeshSource, Scene, SceneError};
 
 /// A body, and what its owner should know about it.
 #[derive(Debug)]
@@ -53,18 +53,11 @@ impl Scene {
     /// The mesh file cannot be read or is not a closed, manifold, outward oriented surface.
     pub fn load_body(&self) -> Result<LoadedBody, SceneError> {
         let scale = self.body.scale;
-        let (name, mesh) = match &self.body.mesh {
-            MeshSource::BuiltIn(kind) => {
-                let shape = generate::body(*kind, kind.default_vertices());
-                let vertices = shape.vertices.iter().map(|v| *v * scale).collect();
-                let mesh = SurfaceMesh::new(vertices, shape.triangles).map_err(|error| {
-                    self.parameters()
-                        .error("body.scale", Problem::Mesh(format!("{scale:?} is not accepted: {error}")))
-                })?;
-                (kind.name().to_owned(), mesh)
-            }
-            MeshSource::File(path) => (path.display().to_string(), MeshFile::read(path)?.surface(scale)?),
+        let (name, file) = match &self.body.mesh {
+            MeshSource::BuiltIn(kind) => (kind.name().to_owned(), MeshFile::generated(*kind)),
+            MeshSource::File(path) => (path.display().to_string(), MeshFile::read(path)?),
         };
+        let mesh = file.surface(scale)?;
         let [low, high] = mesh.extents();
         let warnings = unlikely_size(name, high - low, scale).into_iter().collect();
         Ok(LoadedBody { body: Body::new(mesh), warnings })

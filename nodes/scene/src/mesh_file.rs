@@ -11,7 +11,8 @@ use std::path::Path;
 use glam::DVec3;
 use rhombus_chain::{Inspection, MeshError, SurfaceMesh, inspect};
 
-use crate::{Problem, SceneError};
+use crate::generate::{self, Shape};
+use crate::{BodyKind, Problem, SceneError};
 use statements::Statements;
 
 /// What a mesh file holds, in file units, before it is known to be a closed surface.
@@ -58,6 +59,13 @@ impl MeshFile {
                 problem: Box::new(Problem::Mesh(message)),
             })?;
         Ok(MeshFile { name: name.to_owned(), vertices, triangles, vertex_lines, triangle_lines })
+    }
+
+    /// A generated body with its default number of vertices, as if it had been read from a file of the body's name.
+    pub fn generated(kind: BodyKind) -> MeshFile {
+        let Shape { vertices, triangles } = generate::body(kind, kind.default_vertices());
+        let name = kind.name().to_owned();
+        MeshFile { name, vertices, triangles, vertex_lines: Vec::new(), triangle_lines: Vec::new() }
     }
 
     /// Counts and measures, whatever is wrong with the surface.

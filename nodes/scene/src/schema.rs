@@ -142,11 +142,7 @@ impl ParameterSpec {
     /// What is accepted, in words: type, length and range, as error messages and the README say it.
     pub fn accepted(&self) -> String {
         let mut text = self.kind.in_words().to_owned();
-        let length = self.length.in_words();
-        if !length.is_empty() {
-            text.push_str(&format!(" ({length})"));
-        }
-        let range = self.check.to_string();
+        let range = self.range();
         if !range.is_empty() {
             text.push_str(&format!(", {range}"));
         }
@@ -154,6 +150,12 @@ impl ParameterSpec {
             text.push_str(&format!(" [{}]", self.unit));
         }
         text
+    }
+
+    /// Length of an array and range of its entries in words; empty when anything of the type is accepted.
+    pub fn range(&self) -> String {
+        let parts = [self.length.in_words(), self.check.to_string()];
+        parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
     }
 
     /// Whether `node` uses the parameter.

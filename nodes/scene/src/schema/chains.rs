@@ -2,7 +2,7 @@
 
 use super::{Check, DefaultValue, Kind, Length, Node, ParameterSpec};
 
-const USERS: &[Node] = &[Node::Deformation];
+const USERS: &[Node] = &[Node::Deformation, Node::Visualization];
 
 const fn per_chain(
     name: &'static str,
