@@ -1,84 +1,187 @@
-//! Parameters for the tests of the contact law: plain tissues, and random chains that are accepted by construction.
-#![allow(dead_code, reason = "each test file uses its part")]
+//! Bodies and tissues the tests share. Metres, newton.
+#![allow(dead_code, reason = "every test file uses its own selection")]
 
-use proptest::prelude::*;
-use rhombus_chain::{Chain, ChainParameters, ContactLaw, Formulation, ParameterError};
+use std::collections::BTreeMap;
 
-/// The second golden chain of MODEL section 2.
-pub(crate) const TISSUE: ChainParameters = ChainParameters {
-    rod_length_m: 0.01,
-    angle_rad: 0.523_598_775_598_298_8,
-    ratio: 0.8,
-    units: 12,
-    normal_stiffness_n_per_m: 500.0,
-    tangential_stiffness_n_per_m: 100.0,
-    tangential_growth: 10.0,
-    weight: 1.0,
-    pitch_m: 0.017_320_508_075_688_77,
+use glam::DVec3;
+use rhombus_chain::{
+    Body, ChainParameters, ContactLaw, Formulation, Spread, SurfaceMesh, SurfaceParameters, SurfacePoint,
+    Tissue,
 };
 
-pub(crate) fn assert_close(what: &str, value: f64, expected: f64, relative: f64) {
-    let allowed = relative * expected.abs();
-    assert!((value - expected).abs() <= allowed, "{what}: {value:e}, expected {expected:e}");
-}
-
-pub(crate) fn formulations() -> impl Strategy<Value = Formulation> {
-    prop_oneof![Just(Formulation::Published), Just(Formulation::Energy)]
-}
-
-/// `10^low .. 10^high`, evenly in the exponent.
-pub(crate) fn decades(low: f64, high: f64) -> impl Strategy<Value = f64> {
-    (low..high).prop_map(|exponent| libm::pow(10.0, exponent))
-}
-
-/// A chain of the given formulation that is accepted, from 0.1 to 89.9 degrees, 1 to 10^6 units, up to 99.9 % of the
-/// tangential stiffness at which it would be refused.
-pub(crate) fn accepted(formulation: Formulation) -> impl Strategy<Value = ChainParameters> {
-    let shape = (decades(-4.0, 0.0), 0.002..1.569_f64, decades(-7.0, -0.02), decades(0.0, 6.0));
-    let springs = (decades(-3.0, 9.0), 0.0..0.999_f64, decades(-1.0, 4.0));
-    (shape, springs).prop_map(move |((rod_length_m, angle_rad, decay, units), (normal, share, growth))| {
-        let mut parameters = ChainParameters {
-            rod_length_m,
-            angle_rad,
-            ratio: 1.0 - decay,
-            units: units as u32,
-            normal_stiffness_n_per_m: normal,
-            tangential_stiffness_n_per_m: 1e18,
-            // Slow enough for e^(n/beta) to stay a number.
-            tangential_growth: growth.max(units / 300.0),
-            weight: 1.0,
-            pitch_m: 2.0 * rod_length_m * libm::cos(angle_rad),
+/// Sphere from a subdivided icosahedron: `20 * 4^subdivisions` faces.
+pub fn icosphere(radius: f64, subdivisions: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let phi = 0.5 * (1.0 + 5.0f64.sqrt());
+    let mut vertices: Vec<DVec3> = [
+        [-1.0, phi, 0.0],
+        [1.0, phi, 0.0],
+        [-1.0, -phi, 0.0],
+        [1.0, -phi, 0.0],
+        [0.0, -1.0, phi],
+        [0.0, 1.0, phi],
+        [0.0, -1.0, -phi],
+        [0.0, 1.0, -phi],
+        [phi, 0.0, -1.0],
+        [phi, 0.0, 1.0],
+        [-phi, 0.0, -1.0],
+        [-phi, 0.0, 1.0],
+    ]
+    .map(|p| DVec3::from_array(p).normalize_or_zero())
+    .to_vec();
+    let mut triangles = vec![
+        [0, 11, 5],
+        [0, 5, 1],
+        [0, 1, 7],
+        [0, 7, 10],
+        [0, 10, 11],
+        [1, 5, 9],
+        [5, 11, 4],
+        [11, 10, 2],
+        [10, 7, 6],
+        [7, 1, 8],
+        [3, 9, 4],
+        [3, 4, 2],
+        [3, 2, 6],
+        [3, 6, 8],
+        [3, 8, 9],
+        [4, 9, 5],
+        [2, 4, 11],
+        [6, 2, 10],
+        [8, 6, 7],
+        [9, 8, 1],
+    ];
+    for _ in 0..subdivisions {
+        let mut middles = BTreeMap::new();
+        let mut middle = |a: u32, b: u32| {
+            *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                vertices.push((vertices[a as usize] + vertices[b as usize]).normalize_or_zero());
+                vertices.len() as u32 - 1
+            })
         };
-        let most = match Chain::new(0, formulation, &parameters) {
-            Err(
-                ParameterError::SnapsThrough { most_tangential, .. }
-                | ParameterError::NotRising { most_tangential, .. },
-            ) => most_tangential,
-            other => panic!("1e18 N/m on the tangential springs is refused, not {other:?}"),
-        };
-        let tangential = share * most;
-        parameters.tangential_stiffness_n_per_m = if tangential < 1e-12 { 0.0 } else { tangential.min(1e18) };
-        parameters
-    })
+        triangles = triangles
+            .iter()
+            .flat_map(|&[a, b, c]| {
+                let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+            })
+            .collect();
+    }
+    (vertices.into_iter().map(|p| p * radius).collect(), triangles)
 }
 
-/// One to four accepted chains of similar size in parallel.
-pub(crate) fn accepted_law() -> impl Strategy<Value = ContactLaw> {
-    formulations().prop_flat_map(|formulation| {
-        prop::collection::vec(accepted(formulation), 1..=4).prop_map(move |mut chains| {
-            let weight = 1.0 / chains.len() as f64;
-            for chain in &mut chains {
-                chain.weight = weight;
-            }
-            ContactLaw::new(formulation, &chains).expect("accepted by construction")
+/// A liver-like body of about 0.2 m: an ellipsoid with a thin lobe and bumps of some centimetres.
+pub fn bumpy(subdivisions: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let (vertices, triangles) = icosphere(1.0, subdivisions);
+    let bump = |p: DVec3| {
+        let thin = 1.0 - 0.55 * (0.5 + 0.5 * p.x);
+        let waves = 1.0
+            + 0.08 * libm::sin(4.0 * p.x + 1.0) * libm::cos(5.0 * p.y)
+            + 0.05 * libm::sin(7.0 * p.z + 2.0 * p.x);
+        DVec3::new(0.10 * p.x, 0.07 * p.y, 0.05 * p.z * thin) * waves
+    };
+    (vertices.into_iter().map(bump).collect(), triangles)
+}
+
+/// A block from `-size/2` to `size/2` with `n` squares along each edge of each side.
+pub fn block(size: DVec3, n: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let mut vertices = Vec::new();
+    let mut numbers = BTreeMap::new();
+    let mut triangles = Vec::new();
+    let mut vertex = |grid: [u32; 3]| {
+        *numbers.entry(grid).or_insert_with(|| {
+            let at = DVec3::from_array(grid.map(|k| f64::from(k) / f64::from(n) - 0.5));
+            vertices.push(at * size);
+            vertices.len() as u32 - 1
         })
-    })
+    };
+    for axis in 0..3 {
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        for (side, i, j) in (0..2 * n * n).map(|k| (k / (n * n), k / n % n, k % n)) {
+            let mut corner = |di: u32, dj: u32| {
+                let mut grid = [0; 3];
+                (grid[axis], grid[u], grid[v]) = (side * n, i + di, j + dj);
+                vertex(grid)
+            };
+            let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+            if side == 1 {
+                triangles.extend([[a, b, c], [a, c, d]]);
+            } else {
+                triangles.extend([[a, c, b], [a, d, c]]);
+            }
+        }
+    }
+    (vertices, triangles)
 }
 
-/// The outermost guards of a law: (largest depth, largest pull), both > 0, m.
-pub(crate) fn outermost_guards(law: &ContactLaw) -> (f64, f64) {
-    law.chains()
-        .iter()
-        .map(Chain::guarded_range_m)
-        .fold((0.0, 0.0), |(depth, pull), (low, high)| (f64::max(depth, -low), f64::max(pull, high)))
+pub fn body((vertices, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> Body {
+    Body::new(SurfaceMesh::new(vertices, triangles).expect("a closed surface"))
+}
+
+/// `chains` chains whose fields reach different distances.
+pub fn law(chains: usize) -> ContactLaw {
+    let parameters: Vec<ChainParameters> = (0..chains)
+        .map(|p| ChainParameters {
+            rod_length_m: 0.004 + 0.002 * p as f64,
+            angle_rad: 0.8,
+            ratio: 0.85,
+            units: 20,
+            normal_stiffness_n_per_m: 300.0 / chains as f64,
+            tangential_stiffness_n_per_m: 40.0 / chains as f64,
+            tangential_growth: 10.0,
+            weight: 1.0 / chains as f64,
+            pitch_m: 0.004 + 0.002 * p as f64,
+        })
+        .collect();
+    ContactLaw::new(Formulation::Energy, &parameters).expect("an acceptable law")
+}
+
+pub fn surface(expansion: f64, spread: Spread) -> SurfaceParameters {
+    SurfaceParameters { expansion, spread, ..SurfaceParameters::default() }
+}
+
+/// Two chains, a probe of 5 mm radius, geodesic spread, no expansion.
+pub fn tissue() -> Tissue {
+    tissue_with(2, surface(0.0, Spread::Geodesic))
+}
+
+pub fn tissue_with(chains: usize, surface: SurfaceParameters) -> Tissue {
+    Tissue::new(law(chains), surface, 0.005, 0.5).expect("acceptable settings")
+}
+
+/// A sequence of numbers in 0..1 that is the same in every run.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn unit(&mut self) -> f64 {
+        // SplitMix64 (Steele, Lea, Flood 2014).
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.unit() * count as f64) as usize
+    }
+
+    /// Uniform over the unit sphere.
+    pub fn direction(&mut self) -> DVec3 {
+        loop {
+            let p = DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0;
+            if (0.01..1.0).contains(&p.length_squared()) {
+                return p.normalize_or_zero();
+            }
+        }
+    }
+
+    /// Somewhere on a face drawn at random.
+    pub fn surface_point(&mut self, mesh: &SurfaceMesh) -> SurfacePoint {
+        let face = self.below(mesh.triangles().len()) as u32;
+        let (mut u, mut v) = (self.unit(), self.unit());
+        if u + v > 1.0 {
+            (u, v) = (1.0 - u, 1.0 - v);
+        }
+        SurfacePoint { face, barycentric: DVec3::new(1.0 - u - v, u, v) }
+    }
 }
