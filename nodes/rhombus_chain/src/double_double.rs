@@ -2,7 +2,7 @@
 //! becomes a million roundings in its power `n`, and this keeps them all below the last digit of the result.
 //!
 //! Dekker's algorithms (Numerische Mathematik 18, 1971) without fused multiply-add, so that every CPU gives the
-//! same bits. Magnitudes above 1e290 turn into NaN.
+//! same bits. A product with a factor above 1e300 is NaN.
 
 /// The unevaluated sum `high + low`, with `low` below half a last digit of `high`.
 #[derive(Debug, Clone, Copy)]

@@ -58,7 +58,7 @@ pub enum ParameterError {
     #[error(
         "chain {chain}: the stiffness of its tangential springs overflows with chains.tangential_growth[{chain}] = {growth:?}, \
          chains.ratio[{chain}] = {ratio:?}, chains.units[{chain}] = {units}; accepted is \
-         units * (2 ln ratio + 1/tangential_growth) below about 640 and 1/tangential_growth up to 600: raise tangential_growth, \
+         units * (2 ln ratio + 1/tangential_growth) below about 690 and 1/tangential_growth up to 600: raise tangential_growth, \
          lower ratio or units, or set tangential_stiffness to 0"
     )]
     TangentialOverflow {

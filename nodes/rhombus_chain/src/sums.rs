@@ -11,7 +11,7 @@ pub(crate) struct ChainSums {
     /// `1 + q^2 + .. + q^(2(n-1))`: stored energy of the normal springs (13).
     pub(crate) normal: f64,
     /// `1 + r + .. + r^(n-1)`, `r = q^2 e^(1/beta)`: stored energy of the tangential springs (12).
-    /// `None`: above 1e280, on the brink of overflow.
+    /// `None`: it overflows.
     pub(crate) tangential: Option<f64>,
 }
 
@@ -37,9 +37,8 @@ fn tangential_sum(square: DoubleDouble, units: u32, growth: f64) -> Option<f64> 
 }
 
 /// `1 + r + .. + r^(n-1)` from the binary digits of `n`, the highest first: with `m` terms known,
-/// `2m` terms are `sum (1 + r^m)` and one more is `1 + r sum`. `None` when it exceeds 1e280.
+/// `2m` terms are `sum (1 + r^m)` and one more is `1 + r sum`. `None` when it overflows.
 fn geometric_sum(r: DoubleDouble, n: u32) -> Option<f64> {
-    const LARGEST_SUM: f64 = 1e280;
     let mut sum = DoubleDouble::ONE;
     let mut power = r;
     for digit in (0..n.ilog2()).rev() {
@@ -49,12 +48,10 @@ fn geometric_sum(r: DoubleDouble, n: u32) -> Option<f64> {
             sum = DoubleDouble::ONE.plus(sum.times(r));
             power = power.times(r);
         }
-        // A power that overflowed is NaN here, and so is the sum that would need it.
-        if sum.value().is_nan() || sum.value() > LARGEST_SUM {
-            return None;
-        }
     }
-    Some(sum.value())
+    // A power that overflowed is NaN, and so is every sum that needed it.
+    let sum = sum.value();
+    sum.is_finite().then_some(sum)
 }
 
 #[cfg(test)]

@@ -107,6 +107,18 @@ proptest! {
     }
 
     #[test]
+    fn past_a_guard_the_tangential_motion_continues_along_its_tangent(chain in any_chain(), beyond in 1.0..3.0_f64, pull in any::<bool>()) {
+        let (compression, extension) = chain.guarded_range_m();
+        let guard = chain.response(if pull { extension } else { compression });
+        let past = chain.response(beyond * if pull { extension } else { compression });
+        let tangent = libm::tan(chain.parameters().angle_rad + guard.d_theta_rad);
+        let expected = guard.dw_1_m - tangent * (past.dl_1_m - guard.dl_1_m);
+        assert_close("d_theta", past.d_theta_rad, guard.d_theta_rad, 1e-12);
+        let allowed = 1e-9 * (expected.abs() + guard.dw_1_m.abs());
+        prop_assert!((past.dw_1_m - expected).abs() <= allowed, "{:e}, expected {expected:e}", past.dw_1_m);
+    }
+
+    #[test]
     fn guards_stand_at_98_percent_or_where_the_stiffness_has_changed_ten_times(chain in any_chain()) {
         let parameters = chain.parameters();
         let span = 2.0 * parameters.rod_length_m * chain.elongation_sum();
@@ -220,6 +232,24 @@ fn a_law_without_tangential_springs_is_a_straight_line() {
             assert_close("force", response.force_n, stiffness * depth_m, 1e-14);
             assert_close("stiffness", response.stiffness_n_per_m, stiffness, 1e-14);
         }
+    }
+}
+
+#[test]
+fn the_largest_numbers_have_finite_answers_too() {
+    let stiff = ChainParameters { normal_stiffness_n_per_m: 1e9, weight: 0.5, ..TISSUE };
+    for formulation in [Formulation::Published, Formulation::Energy] {
+        let law = ContactLaw::new(formulation, &[stiff, stiff]).expect("accepted");
+        for depth_m in [f64::MAX, -f64::MAX, 1e300, -1e300] {
+            let together = law.at_depth(depth_m).expect("a finite depth");
+            assert!(together.saturated && together.force_n.is_finite() && together.force_n * depth_m > 0.0);
+            assert_eq!(together.energy_j, f64::MAX);
+            let alone = law.chains()[0].response(depth_m);
+            let answers = [alone.force_n, alone.energy_j, alone.dl_1_m, alone.d_theta_rad, alone.dw_1_m];
+            assert!(answers.into_iter().all(f64::is_finite), "{alone:?}");
+        }
+        let beyond = law.chains()[0].response(f64::INFINITY);
+        assert_eq!(beyond, law.chains()[0].response(f64::MAX));
     }
 }
 
