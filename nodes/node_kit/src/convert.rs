@@ -3,8 +3,6 @@
 //! r2r makes a fixed-size array a `Vec` and panics while publishing one of another length, so such arrays are only
 //! built here.
 
-use std::sync::{Arc, Mutex, PoisonError};
-
 use glam::{DQuat, DVec3};
 use r2r::builtin_interfaces::msg::{Duration as DurationMessage, Time};
 use r2r::geometry_msgs::msg::{Point, Pose as PoseMessage, Quaternion, Transform, Vector3};
@@ -34,12 +32,6 @@ fn split(ns: i64) -> (i32, u32) {
     let limited = ns.clamp(i64::from(i32::MIN) * NS_PER_S, (i64::from(i32::MAX) + 1) * NS_PER_S - 1);
     // Both parts fit: the whole seconds were limited above, the remainder is below 1e9.
     (limited.div_euclid(NS_PER_S) as i32, limited.rem_euclid(NS_PER_S) as u32)
-}
-
-/// The node's time for log lines and diagnostics: system time, or `/clock` with `use_sim_time`.
-pub(crate) fn now(clock: &Arc<Mutex<r2r::Clock>>) -> Time {
-    let mut clock = clock.lock().unwrap_or_else(PoisonError::into_inner);
-    clock.get_now().map(|now| r2r::Clock::to_builtin_time(&now)).unwrap_or_default()
 }
 
 /// A position.

@@ -1,13 +1,13 @@
 //! Health of the node on `/diagnostics`, once a second of the steady clock and at changes of state.
 
 use std::fmt::Display;
-use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use r2r::diagnostic_msgs::msg::{DiagnosticArray, DiagnosticStatus, KeyValue};
 use r2r::std_msgs::msg::Header;
 
-use crate::{PublishError, Publisher, StartError, convert, topics};
+use crate::clock::NodeClock;
+use crate::{PublishError, Publisher, StartError, topics};
 
 /// Time between two reports.
 const PERIOD: Duration = Duration::from_secs(1);
@@ -50,16 +50,20 @@ impl Status {
 /// Publishes the statuses of one node.
 pub(crate) struct Diagnostics {
     node_name: String,
-    clock: Arc<Mutex<r2r::Clock>>,
+    clock: NodeClock,
     publisher: Publisher<DiagnosticArray>,
     due: Instant,
 }
 
 impl Diagnostics {
-    pub(crate) fn new(node: &mut r2r::Node, node_name: &str) -> Result<Diagnostics, StartError> {
+    pub(crate) fn new(
+        node: &mut r2r::Node,
+        clock: NodeClock,
+        node_name: &str,
+    ) -> Result<Diagnostics, StartError> {
         Ok(Diagnostics {
             node_name: node_name.to_owned(),
-            clock: node.get_ros_clock(),
+            clock,
             publisher: Publisher::new(node, &topics::DIAGNOSTICS, "")?,
             due: Instant::now(),
         })
@@ -87,7 +91,7 @@ impl Diagnostics {
                 values: status.values.into_iter().map(|(key, value)| KeyValue { key, value }).collect(),
             })
             .collect();
-        let header = Header { stamp: convert::now(&self.clock), frame_id: String::new() };
+        let header = Header { stamp: self.clock.now(), frame_id: String::new() };
         self.publisher.publish(&DiagnosticArray { header, status })
     }
 }

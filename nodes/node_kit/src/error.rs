@@ -44,9 +44,6 @@ pub enum StartError {
         /// What rcl says.
         source: r2r::Error,
     },
-    /// `use_sim_time` is set and the clock cannot be followed.
-    #[error("use_sim_time: /clock cannot be followed: {0}")]
-    SimTime(r2r::Error),
     /// Signal handlers cannot be installed.
     #[error("SIGINT and SIGTERM cannot be handled: {0}")]
     Signals(std::io::Error),

@@ -2,16 +2,18 @@
 
 use std::time::Duration;
 
+use r2r::rosgraph_msgs::msg::Clock;
 use r2r::{QosProfile, WrappedTypesupport};
 use scene::{Node, Parameters, Value};
 
 use crate::arguments::RosArguments;
+use crate::clock::NodeClock;
 use crate::diagnostics::{Diagnostics, Status};
 use crate::log::Log;
 use crate::parameters::{self, Change, ParameterServices, Store, TogetherCheck};
 use crate::security::Transport;
 use crate::topics::Topic;
-use crate::{Inbox, PublishError, Publisher, Shutdown, StartError, context, convert, frames, shutdown};
+use crate::{Inbox, PublishError, Publisher, Shutdown, StartError, context, frames, shutdown, topics};
 
 /// Longest wait of one turn. A spin cannot be interrupted, so this bounds how late a signal is seen.
 const LONGEST_WAIT: Duration = Duration::from_millis(50);
@@ -28,6 +30,8 @@ pub struct NodeKit {
     log: Log,
     store: Store,
     shutdown: Shutdown,
+    clock: NodeClock,
+    simulated_time: Option<Inbox<Clock>>,
     full_name: String,
     namespace: String,
     node: r2r::Node,
@@ -49,25 +53,38 @@ impl NodeKit {
         shutdown::exit_on_panic();
 
         let values = parameters::read(&node, &arguments)?;
-        if values.bool("use_sim_time")? {
-            let time_source = node.get_time_source();
-            time_source.enable_sim_time(&mut node).map_err(StartError::SimTime)?;
-        }
         let unnamed = |source| StartError::Node { name: kind.name(), source };
         let full_name = node.fully_qualified_name().map_err(unnamed)?;
         let namespace = node.namespace().map_err(unnamed)?;
         let least = arguments.severity_of(node.logger());
-        let log = Log::new(&mut node, least)?;
+        let simulated = values.bool("use_sim_time")?;
+        let clock = if simulated { NodeClock::simulated() } else { NodeClock::system() };
+        let log = Log::new(&mut node, clock.clone(), least)?;
         let services = ParameterServices::new(&mut node)?;
-        let diagnostics = Diagnostics::new(&mut node, &full_name)?;
+        let diagnostics = Diagnostics::new(&mut node, clock.clone(), &full_name)?;
         let store = Store::new(kind, values);
-        services.announce(convert::now(&node.get_ros_clock()), &full_name, &store);
+        services.announce(clock.now(), &full_name, &store);
         log.info(&format!(
             "{full_name} starts with parameters from {}; {}",
             arguments.source(),
             transport.in_words()
         ));
-        Ok(NodeKit { services, diagnostics, log, store, shutdown, full_name, namespace, node })
+        let mut kit = NodeKit {
+            services,
+            diagnostics,
+            log,
+            store,
+            shutdown,
+            clock,
+            simulated_time: None,
+            full_name,
+            namespace,
+            node,
+        };
+        if simulated {
+            kit.simulated_time = Some(kit.subscribe(&topics::CLOCK, "")?);
+        }
+        Ok(kit)
     }
 
     /// "/left/deformation".
@@ -221,9 +238,12 @@ impl NodeKit {
     /// serve the parameters. What was set since the last turn.
     pub fn spin_once(&mut self, timeout: Duration) -> Vec<Change> {
         self.node.spin_once(timeout.min(LONGEST_WAIT));
+        if let Some(time) = self.simulated_time.as_mut().and_then(Inbox::newest) {
+            self.clock.set(&time.clock);
+        }
         let changes = self.services.serve(&mut self.store);
         if !changes.is_empty() {
-            self.services.tell(convert::now(&self.node.get_ros_clock()), &self.full_name, &changes);
+            self.services.tell(self.clock.now(), &self.full_name, &changes);
         }
         changes
     }

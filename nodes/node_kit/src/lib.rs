@@ -3,14 +3,16 @@
 //! The only library that touches r2r, so that its traps are known in one place:
 //! queues of ten that keep the oldest ([`Inbox`]), no parameter arrays or ranges (`parameters`), no `/rosout`
 //! ([`Log`]), no signal handling ([`Shutdown`]), a panic for a bad command line (`context`), fixed-size arrays that
-//! panic when published ([`convert`]).
+//! panic when published ([`convert`]), a time source that may be missing (`clock`).
 
 mod arguments;
+mod clock;
 mod context;
 pub mod convert;
 mod diagnostics;
 mod error;
 pub mod frames;
+mod histogram;
 mod kit;
 mod log;
 mod parameters;
@@ -24,6 +26,7 @@ mod wire;
 pub use diagnostics::{Level, Status};
 pub use error::{PublishError, StartError};
 pub use frames::FrameTree;
+pub use histogram::Histogram;
 pub use kit::NodeKit;
 pub use log::{Log, Throttle};
 pub use parameters::{Change, TogetherCheck};

@@ -3,29 +3,29 @@
 //! Since Humble rcl gives no node a `/rosout` publisher by itself and r2r makes none, so lines are published here.
 //! A call allocates and takes a process-wide lock: never from a motor loop.
 
-use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use r2r::rcl_interfaces::msg::Log as LogMessage;
 
 use crate::arguments::Severity;
-use crate::{Publisher, StartError, convert, topics};
+use crate::clock::NodeClock;
+use crate::{Publisher, StartError, topics};
 
 /// The logger of one node. A clone may be moved to another thread.
 #[derive(Clone)]
 pub struct Log {
     logger: String,
     least: Severity,
-    clock: Arc<Mutex<r2r::Clock>>,
+    clock: NodeClock,
     publisher: Publisher<LogMessage>,
 }
 
 impl Log {
-    pub(crate) fn new(node: &mut r2r::Node, least: Severity) -> Result<Log, StartError> {
+    pub(crate) fn new(node: &mut r2r::Node, clock: NodeClock, least: Severity) -> Result<Log, StartError> {
         Ok(Log {
             logger: node.logger().to_owned(),
             least,
-            clock: node.get_ros_clock(),
+            clock,
             publisher: Publisher::new(node, &topics::ROSOUT, "")?,
         })
     }
@@ -65,7 +65,7 @@ impl Log {
             return;
         }
         let message = LogMessage {
-            stamp: convert::now(&self.clock),
+            stamp: self.clock.now(),
             level: severity as u8,
             name: self.logger.clone(),
             msg: text.to_owned(),

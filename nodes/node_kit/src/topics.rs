@@ -13,6 +13,7 @@ use r2r::diagnostic_msgs::msg::DiagnosticArray;
 use r2r::geometry_msgs::msg::{PoseStamped, TwistStamped, WrenchStamped};
 use r2r::rcl_interfaces::msg::{Log, ParameterEvent};
 use r2r::rhombus_haptics_msgs::msg::{ContactLaw, ContactState, SurfaceDisplacement};
+use r2r::rosgraph_msgs::msg::Clock;
 use r2r::sensor_msgs::msg::{JointState, Joy};
 use r2r::shape_msgs::msg::Mesh;
 use r2r::std_msgs::msg::Bool;
@@ -89,6 +90,8 @@ pub const ROSOUT: Topic<Log> = Topic::new("/rosout", latched(1000));
 /// Changes of parameters of every node.
 pub const PARAMETER_EVENTS: Topic<ParameterEvent> =
     Topic::new("/parameter_events", QosProfile::parameter_events());
+/// Simulated time, with `use_sim_time`.
+pub const CLOCK: Topic<Clock> = Topic::new("/clock", QosProfile::default().keep_last(1).best_effort());
 /// Transforms that move.
 pub const TF: Topic<TFMessage> = Topic::new("/tf", reliable(100));
 /// Transforms that stay.

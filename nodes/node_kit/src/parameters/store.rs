@@ -12,8 +12,9 @@ pub struct Change {
     pub value: Value,
 }
 
-/// Whether values that are each accepted also fit together; the error is the reason for a person.
-pub type TogetherCheck = Box<dyn Fn(&Parameters) -> Result<(), String> + Send>;
+/// Whether values that are each accepted also fit together and may be changed just now. Gets all values as they would
+/// be, and the changes; the error is the reason for a person.
+pub type TogetherCheck = Box<dyn Fn(&Parameters, &[Change]) -> Result<(), String> + Send>;
 
 /// Values, and what may be done with them.
 pub(crate) struct Store {
@@ -24,7 +25,7 @@ pub(crate) struct Store {
 
 impl Store {
     pub(crate) fn new(node: Node, values: Parameters) -> Store {
-        Store { node, values, together: Box::new(|_| Ok(())) }
+        Store { node, values, together: Box::new(|_, _| Ok(())) }
     }
 
     pub(crate) fn values(&self) -> &Parameters {
@@ -99,7 +100,7 @@ impl Store {
                 changes.push(Change { name: spec.name, value: value.clone() });
             }
         }
-        (self.together)(&values)?;
+        (self.together)(&values, &changes)?;
         self.values = values;
         Ok(changes)
     }
@@ -179,7 +180,10 @@ mod tests {
     #[test]
     fn values_that_do_not_fit_together_are_refused() {
         let mut store = store();
-        store.check_together(Box::new(|_| Err("they disagree".to_owned())));
+        store.check_together(Box::new(|_, changes| {
+            assert_eq!(changes.len(), 1);
+            Err("they disagree".to_owned())
+        }));
         assert_eq!(store.set(one("surface.rate", Value::Double(10.0))), Err("they disagree".to_owned()));
     }
 

@@ -1,0 +1,118 @@
+//! The model's answers as messages. Each message is made once and filled again for every pose.
+
+use glam::DVec3;
+use node_kit::convert;
+use r2r::geometry_msgs::msg::WrenchStamped;
+use r2r::rhombus_haptics_msgs::msg::{ContactLaw, ContactState};
+use r2r::std_msgs::msg::Header;
+use rhombus_chain::{Answer, ChainParameters, Formulation, LocalLaw, Mode, Tissue, chain_for_hand};
+
+/// How long after its pose a contact law may be used. Longer than the gaps of a loaded machine, shorter than it takes a
+/// hand to get to where the plane of the law has nothing to do with the surface.
+const LAW_VALIDITY_NS: i64 = 50_000_000;
+
+/// The three messages that answer a pose.
+pub(crate) struct Messages {
+    pub(crate) force: WrenchStamped,
+    pub(crate) law: ContactLaw,
+    pub(crate) state: ContactState,
+}
+
+impl Messages {
+    pub(crate) fn new(tissue: &Tissue, motion_scale: f64) -> Messages {
+        let validity = convert::duration(LAW_VALIDITY_NS);
+        let mut messages = Messages {
+            force: WrenchStamped::default(),
+            law: ContactLaw { validity, ..ContactLaw::default() },
+            state: ContactState { barycentric: convert::three(DVec3::ZERO), ..ContactState::default() },
+        };
+        messages.set_chains(tissue, motion_scale);
+        messages
+    }
+
+    /// The chains that the motor loop evaluates: for positions of the hand.
+    pub(crate) fn set_chains(&mut self, tissue: &Tissue, motion_scale: f64) {
+        let chains: Vec<ChainParameters> = tissue
+            .law()
+            .chains()
+            .iter()
+            .map(|chain| chain_for_hand(chain.parameters(), motion_scale))
+            .collect();
+        let each = |value: fn(&ChainParameters) -> f64| chains.iter().map(value).collect();
+        let law = &mut self.law;
+        law.formulation = match tissue.law().formulation() {
+            Formulation::Published => ContactLaw::PUBLISHED as u8,
+            Formulation::Energy => ContactLaw::ENERGY as u8,
+        };
+        law.rod_length = each(|chain| chain.rod_length_m);
+        law.angle = each(|chain| chain.angle_rad);
+        law.ratio = each(|chain| chain.ratio);
+        law.units = chains.iter().map(|chain| chain.units).collect();
+        law.normal_stiffness = each(|chain| chain.normal_stiffness_n_per_m);
+        law.tangential_stiffness = each(|chain| chain.tangential_stiffness_n_per_m);
+        law.tangential_growth = each(|chain| chain.tangential_growth);
+    }
+
+    /// The force on the hand; zero for a pose that was rejected.
+    pub(crate) fn set_force(&mut self, header: &Header, answer: Option<&Answer>) {
+        set_header(&mut self.force.header, header);
+        let force_n = answer.map_or(DVec3::ZERO, |answer| answer.force_in_frame_n);
+        self.force.wrench.force = convert::vector(force_n);
+    }
+
+    /// Law and state, in the frame of the pose; no contact for a pose that was rejected.
+    pub(crate) fn set_contact(&mut self, header: &Header, answer: Option<&Answer>) {
+        set_header(&mut self.law.header, header);
+        set_header(&mut self.state.header, header);
+        let law = answer.map_or(LocalLaw::default(), |answer| answer.law_for_hand);
+        self.law.mode = mode_number(law.mode);
+        self.law.anchor = convert::point(law.anchor);
+        self.law.normal = convert::vector(law.normal);
+        self.law.probe_radius = law.probe_radius_m;
+        self.law.depth_offset = law.depth_offset_m;
+        self.law.stiffness_factor = law.stiffness_factor;
+        self.law.lateral_stiffness = law.lateral_stiffness_n_per_m;
+        match answer {
+            Some(answer) => fill_state(&mut self.state, answer),
+            None => fill_state_without_answer(&mut self.state),
+        }
+    }
+}
+
+fn set_header(target: &mut Header, source: &Header) {
+    target.stamp.clone_from(&source.stamp);
+    target.frame_id.clone_from(&source.frame_id);
+}
+
+fn mode_number(mode: Mode) -> u8 {
+    match mode {
+        Mode::None => ContactState::NONE as u8,
+        Mode::Contact => ContactState::CONTACT as u8,
+        Mode::Grasp => ContactState::GRASP as u8,
+    }
+}
+
+fn fill_state(state: &mut ContactState, answer: &Answer) {
+    let (step, frame) = (&answer.step, &answer.frame_from_body);
+    state.mode = mode_number(step.mode);
+    state.saturated = step.saturated;
+    state.clutched = answer.clutched;
+    state.probe = convert::point(frame.transform_point(answer.probe_in_body));
+    let touched = step.surface_point.filter(|_| step.mode != Mode::None);
+    state.face = touched.map_or(0, |at| at.face);
+    let barycentric = touched.map_or(DVec3::ZERO, |at| at.barycentric);
+    state.barycentric.copy_from_slice(&barycentric.to_array());
+    state.proxy = convert::point(touched.map_or(DVec3::ZERO, |_| frame.transform_point(step.proxy)));
+    state.normal = convert::vector(frame.rotate(step.normal));
+    state.depth = step.depth_m;
+    state.force = step.normal_force_n;
+    state.stiffness = step.stiffness_n_per_m;
+}
+
+fn fill_state_without_answer(state: &mut ContactState) {
+    *state = ContactState {
+        header: std::mem::take(&mut state.header),
+        barycentric: convert::three(DVec3::ZERO),
+        ..ContactState::default()
+    };
+}
