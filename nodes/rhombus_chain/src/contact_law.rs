@@ -6,6 +6,27 @@ use crate::parameter_error::ParameterError;
 use crate::parameters::{ChainParameters, Formulation, WEIGHT_TOLERANCE};
 
 /// One or more validated chains in parallel. Nothing in it changes; every query is RT safe.
+///
+/// ```
+/// use rhombus_chain::{ChainParameters, ContactLaw, Formulation};
+///
+/// let chain = ChainParameters {
+///     rod_length_m: 0.01,
+///     angle_rad: 0.5236,
+///     ratio: 0.8,
+///     units: 12,
+///     normal_stiffness_n_per_m: 500.0,
+///     tangential_stiffness_n_per_m: 100.0,
+///     tangential_growth: 10.0,
+///     weight: 1.0,
+///     pitch_m: 0.0173,
+/// };
+/// let law = ContactLaw::new(Formulation::Energy, &[chain])?;
+/// let pressed = law.at_depth(0.006)?;
+/// assert!((pressed.force_n - 0.406_38).abs() < 1e-5, "6 mm push out with 0.4 N");
+/// assert!((law.depth_for_force(pressed.force_n)? - 0.006).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactLaw {
     formulation: Formulation,

@@ -145,7 +145,8 @@ impl ContactShape {
         self.sum(|chain| chain.weight * chain.falloff(ring), ring)
     }
 
-    /// `displacement` for `spread: rings`. The tangential motion is zero at the contact and complete from the first ring on. RT safe.
+    /// `displacement` for `spread: rings`. The contact radius plays no part; the tangential motion is zero at the contact
+    /// and complete from the first ring on. RT safe.
     #[inline]
     pub fn displacement_at_ring(&self, ring: f64) -> Displacement {
         let (mut share, mut tangential_m) = (0.0, 0.0);
@@ -239,8 +240,8 @@ impl ChainShape {
         self.falloff = Falloff::new(self.boundary_units * self.ln_ratio);
     }
 
-    /// `m = clamp(1 + ln(dl_c/dl_1)/ln q, 1, n)`. `dl_c` may lie beyond a guard or beyond what geometry allows: the clamp
-    /// then leaves `m` at 1 for every elongation up to it.
+    /// `m = clamp(1 + ln(dl_c/dl_1)/ln q, 1, n)`, with `dl_1 = DL/S_n` past a guard too. Where `dl_c` lies beyond a guard, the
+    /// clamp leaves `m` at 1 up to it.
     fn boundary(&self, dl_1_m: f64) -> f64 {
         let edge_m = if dl_1_m > 0.0 { self.extension_edge_m } else { Some(self.compression_edge_m) };
         match edge_m {
