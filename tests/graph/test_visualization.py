@@ -21,7 +21,7 @@ from geometry_msgs.msg import Point, PoseStamped, WrenchStamped
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from rhombus_haptics_msgs.msg import ContactLaw, ContactState, SurfaceDisplacement
+from rhombus_haptics_msgs.msg import ContactState, SurfaceDisplacement
 from shape_msgs.msg import Mesh, MeshTriangle
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
@@ -33,6 +33,15 @@ LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL, reli
 # One chain, as in the model's second golden value, pressed by 6 mm.
 ROD_LENGTH_M, ANGLE_RAD, RATIO, UNITS = 0.01, math.pi / 6, 0.8, 12
 DEPTH_M, GOLDEN_DL_1_M = 0.006, -0.0012885483697159
+CHAIN = {
+    "chains__rod_length": f"[{ROD_LENGTH_M}]",
+    "chains__angle": f"[{ANGLE_RAD}]",
+    "chains__ratio": f"[{RATIO}]",
+    "chains__units": f"[{UNITS}]",
+    "chains__normal_stiffness": "[500.0]",
+    "chains__tangential_stiffness": "[100.0]",
+    "chains__tangential_growth": "[10.0]",
+}
 
 
 @pytest.fixture(scope="module")
@@ -239,17 +248,9 @@ def pose(frame_id="device_base"):
     return message
 
 
-def contact_law():
-    return ContactLaw(
-        mode=ContactLaw.CONTACT, formulation=ContactLaw.ENERGY, rod_length=[ROD_LENGTH_M], angle=[ANGLE_RAD], ratio=[RATIO],
-        units=[UNITS], normal_stiffness=[500.0], tangential_stiffness=[100.0], tangential_growth=[10.0],
-    )
-
-
 def press(session, device=""):
     """What device and model say while the probe presses."""
     topic = (device + "/{}").format if device else "{}".format
-    session.publish(topic("contact_law"), contact_law())
     session.publish(topic("contact_state"), contact())
     session.publish(topic("servo_cf"), wrench(0.4))
     session.publish(topic("measured_cp"), pose())
@@ -279,7 +280,7 @@ def test_the_body_is_drawn_with_every_triangle_and_moves_with_its_displacement(s
 
 
 def test_a_contact_is_drawn_and_deleted_when_the_probe_leaves(start):
-    session = start(probe__radius=0.005, visualization__force_scale=0.1)
+    session = start(probe__radius=0.005, visualization__force_scale=0.1, **CHAIN)
     viewer = Viewer(session)
     complete = {"probe", "proxy", "force", "chains"}
     session.wait_for(lambda: viewer.names() == complete, "the contact", lambda: press(session))
@@ -299,7 +300,7 @@ def test_a_contact_is_drawn_and_deleted_when_the_probe_leaves(start):
 
 
 def test_the_chains_are_drawn_as_the_model_stretches_them(start):
-    session = start()
+    session = start(**CHAIN)
     viewer = Viewer(session)
     session.wait_for(lambda: "chains" in viewer.names(), "the chains", lambda: press(session))
     rods, springs, masses = (viewer.shown["chains", i] for i in range(3))
@@ -414,7 +415,7 @@ def test_body_device_and_probe_have_their_transforms(start):
 
 
 def test_each_device_has_its_own_markers_and_frames(start):
-    session = start(devices="[left,right]")
+    session = start(devices="[left,right]", **CHAIN)
     viewer = Viewer(session)
     both = {(name, i) for name in ("probe", "force", "proxy") for i in (0, 1)} | {("chains", i) for i in range(6)}
 

@@ -3,10 +3,9 @@
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
-use rhombus_chain::{ContactLaw, Pose};
+use rhombus_chain::Pose;
 
 use crate::drawing::is_drawable;
-use crate::rhombi::ChainShape;
 
 /// What was not heard again for this long is no longer shown.
 const FORGET_AFTER: Duration = Duration::from_secs(1);
@@ -75,7 +74,6 @@ pub(crate) struct DeviceView {
     contact: Option<(Instant, Contact)>,
     force_n: Option<(Instant, InFrame<DVec3>)>,
     pose: Option<(Instant, InFrame<Pose>)>,
-    law: Option<ContactLaw>,
     revision: u64,
 }
 
@@ -115,12 +113,6 @@ impl DeviceView {
         Ok(())
     }
 
-    /// The law that the chains are drawn from.
-    pub(crate) fn hear_law(&mut self, law: ContactLaw) {
-        self.law = Some(law);
-        self.revision += 1;
-    }
-
     /// Grows with everything heard.
     pub(crate) fn revision(&self) -> u64 {
         self.revision
@@ -151,23 +143,6 @@ impl DeviceView {
         let value = Pose { translation: contact.probe_m, rotation };
         Some(InFrame { frame_id: contact.frame_id.clone(), value })
     }
-
-    /// The chains, stretched as a contact says; none before a law was heard.
-    pub(crate) fn chains(&self, contact: &Contact) -> Vec<ChainShape> {
-        let chains = self.law.iter().flat_map(ContactLaw::chains);
-        chains
-            .map(|chain| {
-                let (rest, now) = (chain.parameters(), chain.response(-contact.depth_m));
-                ChainShape {
-                    rod_length_m: rest.rod_length_m,
-                    angle_rad: rest.angle_rad + now.d_theta_rad,
-                    dl_1_m: now.dl_1_m,
-                    ratio: rest.ratio,
-                    units: rest.units,
-                }
-            })
-            .collect()
-    }
 }
 
 fn fresh<T>(heard: &Option<(Instant, T)>, now: Instant) -> Option<&T> {
@@ -177,7 +152,6 @@ fn fresh<T>(heard: &Option<(Instant, T)>, now: Instant) -> Option<&T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rhombus_chain::{ChainParameters, Formulation};
 
     fn contact(mode: Mode) -> Contact {
         Contact {
@@ -196,31 +170,6 @@ mod tests {
     fn the_contact_point_is_moved_by_exactly_the_depth() {
         assert_eq!(contact(Mode::Touch).displaced_m(1.0), DVec3::new(0.0, 0.0, 0.1 - 0.004));
         assert_eq!(contact(Mode::Grasp).displaced_m(1.0), DVec3::new(0.003, 0.0, 0.1 - 0.004));
-    }
-
-    #[test]
-    fn drawn_units_add_up_to_the_depth() {
-        let parameters = ChainParameters {
-            rod_length_m: 0.01,
-            angle_rad: std::f64::consts::FRAC_PI_6,
-            ratio: 0.8,
-            units: 12,
-            normal_stiffness_n_per_m: 500.0,
-            tangential_stiffness_n_per_m: 100.0,
-            tangential_growth: 10.0,
-            weight: 1.0,
-            pitch_m: 0.02,
-        };
-        let mut view = DeviceView::default();
-        let touch = Contact { depth_m: 0.006, ..contact(Mode::Touch) };
-        assert!(view.chains(&touch).is_empty());
-        view.hear_law(ContactLaw::new(Formulation::Energy, &[parameters]).unwrap());
-        let shape = view.chains(&touch)[0];
-        // Golden values of the model: dl_1, d_theta.
-        assert!((shape.dl_1_m - -0.0012885483697159).abs() < 1e-15);
-        assert!((shape.angle_rad - (parameters.angle_rad - 0.0729245035346008)).abs() < 1e-12);
-        let sum: f64 = (0..12).map(|i| shape.dl_1_m * 0.8_f64.powi(i)).sum();
-        assert!((sum + touch.depth_m).abs() < 1e-15);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use node_kit::{Inbox, Log, NodeKit, StartError, Throttle, convert, frames, topics};
 use r2r::geometry_msgs::msg::{PoseStamped, WrenchStamped};
-use r2r::rhombus_haptics_msgs::msg::{ContactLaw, ContactState, SurfaceDisplacement};
+use r2r::rhombus_haptics_msgs::msg::{ContactState, SurfaceDisplacement};
 use r2r::shape_msgs::msg::Mesh;
 
 use crate::device_view::{DeviceView, InFrame, NotDrawable};
@@ -53,7 +53,6 @@ struct DeviceInputs {
     pose: Newest<PoseStamped>,
     /// Stamp of the newest pose, ns.
     stamp_ns: i64,
-    law: Newest<ContactLaw>,
 }
 
 impl Inputs {
@@ -67,7 +66,6 @@ impl Inputs {
                     force: Newest::new(kit.subscribe_newest(&topics::SERVO_CF, device)?),
                     pose: Newest::new(kit.subscribe_newest(&topics::MEASURED_CP, device)?),
                     stamp_ns: 0,
-                    law: Newest::new(kit.subscribe_newest(&topics::CONTACT_LAW, device)?),
                 })
             })
             .collect();
@@ -91,7 +89,6 @@ impl Inputs {
             device.contact.receive(now);
             device.force.receive(now);
             device.pose.receive(now);
-            device.law.receive(now);
         }
     }
 
@@ -184,10 +181,6 @@ impl DeviceInputs {
             self.stamp_ns = convert::stamp_ns(&pose.header.stamp);
             let frame_id = frames::frame_of_message(&pose.header.frame_id).to_owned();
             seen.push(("measured_cp", view.hear_pose(when, frame_id, convert::pose_array(&pose.pose))));
-        }
-        if let Some((_, law)) = self.law.take() {
-            let law = messages::contact_law(&law).ok_or(NotDrawable);
-            seen.push(("contact_law", law.map(|law| view.hear_law(law))));
         }
         seen
     }

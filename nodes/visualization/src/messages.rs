@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 use node_kit::{convert, frames};
-use r2r::rhombus_haptics_msgs::msg::{ContactLaw as ContactLawMessage, ContactState};
+use r2r::rhombus_haptics_msgs::msg::ContactState;
 use r2r::shape_msgs::msg::Mesh;
 use r2r::std_msgs::msg::{ColorRGBA, Header};
 use r2r::visualization_msgs::msg::{Marker, MarkerArray};
-use rhombus_chain::{ChainParameters, ContactLaw, Formulation, Pose};
+use rhombus_chain::Pose;
 
 use crate::colour::Colour;
 use crate::device_view::{Contact, Mode};
@@ -17,8 +17,6 @@ use crate::surface::{BodySurface, MeshError};
 // r2r gives every constant of a message a type of its own.
 const CONTACT: u8 = ContactState::CONTACT as u8;
 const GRASP: u8 = ContactState::GRASP as u8;
-const PUBLISHED: u8 = ContactLawMessage::PUBLISHED as u8;
-const ENERGY: u8 = ContactLawMessage::ENERGY as u8;
 const TRIANGLE_LIST: i32 = Marker::TRIANGLE_LIST as i32;
 const LINE_LIST: i32 = Marker::LINE_LIST as i32;
 const SPHERE: i32 = Marker::SPHERE as i32;
@@ -52,34 +50,6 @@ pub(crate) fn contact(state: &ContactState) -> Contact {
         normal: convert::dvec3_of_vector(&state.normal),
         depth_m: state.depth,
     }
-}
-
-/// The chains of a contact law; none when the arrays do not make chains.
-pub(crate) fn contact_law(message: &ContactLawMessage) -> Option<ContactLaw> {
-    let count = message.rod_length.len();
-    let chains: Option<Vec<ChainParameters>> = (0..count)
-        .map(|i| {
-            let rod_length_m = *message.rod_length.get(i)?;
-            Some(ChainParameters {
-                rod_length_m,
-                angle_rad: *message.angle.get(i)?,
-                ratio: *message.ratio.get(i)?,
-                units: *message.units.get(i)?,
-                normal_stiffness_n_per_m: *message.normal_stiffness.get(i)?,
-                tangential_stiffness_n_per_m: *message.tangential_stiffness.get(i)?,
-                tangential_growth: *message.tangential_growth.get(i)?,
-                // These two shape the surface only; the drawing of the chains asks for neither.
-                weight: 1.0 / count as f64,
-                pitch_m: rod_length_m,
-            })
-        })
-        .collect();
-    let formulation = match message.formulation {
-        PUBLISHED => Formulation::Published,
-        ENERGY => Formulation::Energy,
-        _ => return None,
-    };
-    ContactLaw::new(formulation, &chains?).ok()
 }
 
 /// Markers for an update. Their stamp is zero: a viewer takes the newest transform it has, which a picture wants.
@@ -150,23 +120,5 @@ mod tests {
         let markers = marker_array(update).markers;
         assert_eq!((markers[0].action, markers[0].ns.as_str(), markers[0].id), (DELETE, "chains", 2));
         assert_eq!(markers[1].action, ADD);
-    }
-
-    #[test]
-    fn arrays_that_make_no_chain_make_no_law() {
-        let law = ContactLawMessage {
-            rod_length: vec![0.01],
-            angle: vec![0.5],
-            ratio: vec![0.8],
-            units: vec![12],
-            normal_stiffness: vec![500.0],
-            tangential_stiffness: vec![100.0],
-            tangential_growth: vec![10.0],
-            ..ContactLawMessage::default()
-        };
-        assert_eq!(contact_law(&law).map(|law| law.chains().len()), Some(1));
-        assert_eq!(contact_law(&ContactLawMessage { angle: Vec::new(), ..law.clone() }), None);
-        assert_eq!(contact_law(&ContactLawMessage { ratio: vec![f64::NAN], ..law.clone() }), None);
-        assert_eq!(contact_law(&ContactLawMessage::default()), None);
     }
 }

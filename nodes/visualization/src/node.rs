@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use node_kit::{Level, NodeKit, Publisher, Status, topics};
 use r2r::visualization_msgs::msg::MarkerArray;
-use scene::{Scene, VisualizationSettings};
+use scene::{Scene, SceneError, VisualizationSettings};
 
 use crate::inputs::{Inputs, NotDrawn};
 use crate::messages;
@@ -18,12 +18,15 @@ const LONGEST_PAUSE: Duration = Duration::from_millis(50);
 /// Run the node until it is asked to end.
 pub(crate) fn run(kit: &mut NodeKit) -> anyhow::Result<()> {
     let scene = Scene::from_parameters(kit.parameters().clone())?;
-    let mut settings = scene.visualization;
+    kit.check_changes(Box::new(|values, _| {
+        let look = Scene::from_parameters(values.clone()).and_then(|scene| look(&scene));
+        look.map(|_| ()).map_err(|error| error.to_string())
+    }));
+    let mut rate_hz = scene.visualization.rate_hz;
     let inputs = Inputs::new(kit, &scene.session.devices)?;
     let body_frame_id = kit.frame_id(&scene.body.frame_id);
-    let look = look(&settings, scene.probe.radius_m);
     let mut viewer = Viewer {
-        picture: Picture::new(look, body_frame_id, scene.session.devices.len()),
+        picture: Picture::new(look(&scene)?, body_frame_id, scene.session.devices.len()),
         transforms: Transforms::new(kit, &scene)?,
         markers: kit.publish(&topics::MARKERS, "")?,
         inputs,
@@ -31,23 +34,24 @@ pub(crate) fn run(kit: &mut NodeKit) -> anyhow::Result<()> {
         counts: Counts::default(),
         reported: NotDrawn::default(),
     };
-    kit.ready(&format!("markers at {} Hz while somebody reads them", settings.rate_hz));
+    kit.ready(&format!("markers at {} Hz while somebody reads them", rate_hz));
 
     let mut due = Instant::now();
     while kit.is_running() {
         let now = Instant::now();
-        let pause = period(settings.rate_hz).map_or(LONGEST_PAUSE, |_| due.saturating_duration_since(now));
+        let pause = period(rate_hz).map_or(LONGEST_PAUSE, |_| due.saturating_duration_since(now));
         // Not in the spin: that would wake for every message, and only the newest at the end of the pause counts.
         std::thread::sleep(pause.min(LONGEST_PAUSE));
         let changes = kit.spin_once(Duration::ZERO);
         let now = Instant::now();
         viewer.inputs.receive(now);
         if !changes.is_empty() {
-            settings = Scene::from_parameters(kit.parameters().clone())?.visualization;
-            viewer.picture.set_look(self::look(&settings, scene.probe.radius_m));
+            let scene = Scene::from_parameters(kit.parameters().clone())?;
+            viewer.picture.set_look(look(&scene)?);
+            rate_hz = scene.visualization.rate_hz;
             due = now;
         }
-        if let Some(period) = period(settings.rate_hz)
+        if let Some(period) = period(rate_hz)
             && now >= due
         {
             viewer.show(now)?;
@@ -66,14 +70,13 @@ pub(crate) fn run(kit: &mut NodeKit) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn look(settings: &VisualizationSettings, probe_radius_m: f64) -> Look {
-    Look {
-        full_scale_m: settings.full_scale_m,
-        displacement_scale: settings.displacement_scale,
-        force_scale_m_per_n: settings.force_scale_m_per_n,
-        show_chains: settings.show_chains,
-        probe_radius_m,
-    }
+/// The parameters of the picture. Without `chains.*` there are no chains to draw.
+fn look(scene: &Scene) -> Result<Look, SceneError> {
+    let VisualizationSettings { full_scale_m, displacement_scale, force_scale_m_per_n, show_chains, .. } =
+        scene.visualization;
+    let law = if show_chains && scene.chains.is_some() { Some(scene.law()?) } else { None };
+    let probe_radius_m = scene.probe.radius_m;
+    Ok(Look { full_scale_m, displacement_scale, force_scale_m_per_n, probe_radius_m, law })
 }
 
 /// Time between two pictures; none at rate 0, or one so small that it will never come.

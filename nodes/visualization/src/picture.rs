@@ -2,21 +2,24 @@
 
 use std::time::Instant;
 
+use rhombus_chain::ContactLaw;
+
 use crate::colour::ColourScale;
 use crate::device_view::DeviceView;
 use crate::drawing::{self, Drawing, Key, Thing};
 use crate::outbox::Outbox;
-use crate::rhombi::Fan;
+use crate::rhombi::{ChainShape, Fan};
 use crate::surface::BodySurface;
 
 /// How things look: the parameters of the picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Look {
     pub(crate) full_scale_m: f64,
     pub(crate) displacement_scale: f64,
     pub(crate) force_scale_m_per_n: f64,
-    pub(crate) show_chains: bool,
     pub(crate) probe_radius_m: f64,
+    /// The chains to draw at each contact; none draws none.
+    pub(crate) law: Option<ContactLaw>,
 }
 
 /// What to tell the readers.
@@ -93,7 +96,7 @@ impl Turn<'_> {
 
     fn body(&mut self, surface: &BodySurface, revision: u64, frame_id: &str, colours: &ColourScale) {
         if self.wants(Thing::Body, 0, revision) {
-            let Look { full_scale_m, displacement_scale, .. } = *self.look;
+            let &Look { full_scale_m, displacement_scale, .. } = self.look;
             self.drawings.push(drawing::body(surface, frame_id, colours, full_scale_m, displacement_scale));
         }
     }
@@ -123,10 +126,9 @@ impl Turn<'_> {
         if self.wants(Thing::Proxy, id, device.revision()) {
             self.drawings.push(drawing::proxy(id, &touch.frame_id, touch.proxy_m, self.look.probe_radius_m));
         }
-        if !self.look.show_chains {
-            return;
-        }
-        let shapes = device.chains(touch);
+        let Some(law) = &self.look.law else { return };
+        let shapes: Vec<ChainShape> =
+            law.chains().iter().map(|chain| ChainShape::at_depth(chain, touch.depth_m)).collect();
         let contact_m = touch.displaced_m(self.look.displacement_scale);
         let directions = fan.directions(touch.normal, drawing::rows(shapes.len()));
         for part in drawing::chains(id, &touch.frame_id, &shapes, contact_m, touch.normal, &directions) {
@@ -151,8 +153,8 @@ mod tests {
             full_scale_m: 0.005,
             displacement_scale: 1.0,
             force_scale_m_per_n: 0.02,
-            show_chains: true,
             probe_radius_m: 0.005,
+            law: None,
         };
         Picture::new(look, "body".to_owned(), 1)
     }

@@ -10,6 +10,7 @@
 //! lies below the row; the difference is the model's, not a fault of the drawing.
 
 use glam::DVec3;
+use rhombus_chain::Chain;
 
 /// Units beyond which the movement is less than this share of the depth are not drawn.
 const VISIBLE_SHARE: f64 = 0.02;
@@ -29,6 +30,20 @@ pub(crate) struct ChainShape {
     pub(crate) ratio: f64,
     /// `n`.
     pub(crate) units: u32,
+}
+
+impl ChainShape {
+    /// The chain at a depth, positive into the body.
+    pub(crate) fn at_depth(chain: &Chain, depth_m: f64) -> ChainShape {
+        let (rest, pressed) = (chain.parameters(), chain.response(-depth_m));
+        ChainShape {
+            rod_length_m: rest.rod_length_m,
+            angle_rad: rest.angle_rad + pressed.d_theta_rad,
+            dl_1_m: pressed.dl_1_m,
+            ratio: rest.ratio,
+            units: rest.units,
+        }
+    }
 }
 
 /// Where a row of units starts and where it goes.
@@ -135,6 +150,7 @@ impl Fan {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use rhombus_chain::{ChainParameters, Formulation};
 
     /// A chain stretched by a share of what its geometry allows (negative: pressed), and its rest angle.
     fn stretched(rod_length_m: f64, theta: f64, share: f64, ratio: f64, units: u32) -> ChainShape {
@@ -189,6 +205,28 @@ mod tests {
                 prop_assert!((direction.length() - 1.0).abs() < 1e-12);
             }
         }
+    }
+
+    #[test]
+    fn units_are_stretched_as_the_model_stretches_them_and_add_up_to_the_depth() {
+        let parameters = ChainParameters {
+            rod_length_m: 0.01,
+            angle_rad: std::f64::consts::FRAC_PI_6,
+            ratio: 0.8,
+            units: 12,
+            normal_stiffness_n_per_m: 500.0,
+            tangential_stiffness_n_per_m: 100.0,
+            tangential_growth: 10.0,
+            weight: 1.0,
+            pitch_m: 0.02,
+        };
+        let chain = Chain::new(0, Formulation::Energy, &parameters).unwrap();
+        let shape = ChainShape::at_depth(&chain, 0.006);
+        // Golden values of the model: dl_1 and d_theta.
+        assert!((shape.dl_1_m - -0.0012885483697159).abs() < 1e-15);
+        assert!((shape.angle_rad - (parameters.angle_rad - 0.0729245035346008)).abs() < 1e-12);
+        let sum: f64 = (0..12).map(|i| shape.dl_1_m * 0.8_f64.powi(i)).sum();
+        assert!((sum + 0.006).abs() < 1e-15);
     }
 
     #[test]

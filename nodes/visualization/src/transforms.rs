@@ -1,6 +1,6 @@
 //! Where body, devices and probes stand, for tf.
 
-use node_kit::{NodeKit, PublishError, Publisher, frames, topics, transform_stamped};
+use node_kit::{NodeKit, PublishError, Publisher, topics, transform_stamped};
 use r2r::tf2_msgs::msg::TFMessage;
 use rhombus_chain::Pose;
 use scene::Scene;
@@ -23,10 +23,9 @@ impl Transforms {
     pub(crate) fn new(kit: &mut NodeKit, scene: &Scene) -> anyhow::Result<Transforms> {
         let moving = kit.publish(&topics::TF, "")?;
         let fixed = kit.publish(&topics::TF_STATIC, "")?;
-        fixed.publish(&fixed_transforms(kit.namespace(), scene))?;
-        let devices = &scene.session.devices;
-        let probe_frames =
-            devices.iter().map(|device| frame_of_device(kit.namespace(), device, PROBE)).collect();
+        let names = |device: &str, parameter: &str| kit.frame_id_of_device(device, parameter);
+        fixed.publish(&fixed_transforms(scene, names))?;
+        let probe_frames = scene.session.devices.iter().map(|device| names(device, PROBE)).collect();
         Ok(Transforms { moving, _fixed: fixed, probe_frames })
     }
 
@@ -52,41 +51,40 @@ impl Transforms {
     }
 }
 
-fn frame_of_device(namespace: &str, device: &str, parameter: &str) -> String {
-    frames::frame_id(&format!("{namespace}/{device}").replace("//", "/"), parameter)
-}
-
-/// The body and the devices in the scene. A device whose frame's name is given verbatim ("/PSM1_base") stands in
-/// somebody else's tree, unless the parameters say where it stands: a frame with two parents would break tf.
-fn fixed_transforms(namespace: &str, scene: &Scene) -> TFMessage {
-    let own = |name: &str| frames::frame_id(namespace, name);
-    let scene_frame = own(&scene.session.scene_frame_id);
-    let mut transforms =
-        vec![transform_stamped(0, &scene_frame, &own(&scene.body.frame_id), &scene.body.scene_from_body)];
+/// The body and the devices in the scene. `names` makes a frame of a device's sub-namespace ("" for the node's own) and
+/// a parameter. A device whose frame's name is given verbatim ("/PSM1_base") stands in somebody else's tree, unless the
+/// parameters say where it stands: a frame with two parents would break tf.
+fn fixed_transforms(scene: &Scene, names: impl Fn(&str, &str) -> String) -> TFMessage {
+    let scene_frame = names("", &scene.session.scene_frame_id);
+    let body = (names("", &scene.body.frame_id), scene.body.scene_from_body);
     let is_ours =
         !scene.device.frame_id.starts_with('/') || scene.parameters().is_given("device.scene_from_device");
     let mut device_frames: Vec<String> = scene
         .session
         .devices
         .iter()
-        .map(|device| frame_of_device(namespace, device, &scene.device.frame_id))
+        .map(|device| names(device, &scene.device.frame_id))
         .filter(|frame| is_ours && *frame != scene_frame)
         .collect();
     device_frames.dedup();
-    let pose = &scene.device.scene_from_device;
-    transforms.extend(device_frames.iter().map(|frame| transform_stamped(0, &scene_frame, frame, pose)));
-    TFMessage { transforms }
+    let devices = device_frames.into_iter().map(|frame| (frame, scene.device.scene_from_device));
+    let transforms = std::iter::once(body)
+        .chain(devices)
+        .map(|(frame, scene_from_frame)| transform_stamped(0, &scene_frame, &frame, &scene_from_frame));
+    TFMessage { transforms: transforms.collect() }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use node_kit::frames::frame_id;
     use scene::{Origin, Value};
 
     fn frames(namespace: &str, values: &[(&str, Value)]) -> Vec<(String, String)> {
         let values = values.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
         let scene = Scene::from_values(values, Origin::named("a test")).unwrap();
-        let transforms = fixed_transforms(namespace, &scene).transforms;
+        let names = |device: &str, parameter: &str| frame_id(&format!("{namespace}/{device}"), parameter);
+        let transforms = fixed_transforms(&scene, names).transforms;
         transforms.into_iter().map(|t| (t.header.frame_id, t.child_frame_id)).collect()
     }
 
@@ -96,7 +94,7 @@ mod tests {
 
     #[test]
     fn body_and_device_stand_in_the_scene_of_their_namespace() {
-        assert_eq!(frames("/", &[]), pairs(&[("scene", "body"), ("scene", "device_base")]));
+        assert_eq!(frames("", &[]), pairs(&[("scene", "body"), ("scene", "device_base")]));
         let left = pairs(&[("left/scene", "left/body"), ("left/scene", "left/device_base")]);
         assert_eq!(frames("/left", &[]), left);
     }
@@ -105,15 +103,15 @@ mod tests {
     fn each_device_has_its_frame() {
         let devices = Value::StringArray(vec!["left".to_owned(), "right".to_owned()]);
         let expected = [("scene", "body"), ("scene", "left/device_base"), ("scene", "right/device_base")];
-        assert_eq!(frames("/", &[("devices", devices)]), pairs(&expected));
+        assert_eq!(frames("", &[("devices", devices)]), pairs(&expected));
     }
 
     #[test]
     fn a_frame_of_somebody_elses_tree_gets_no_second_parent() {
         let base = ("device.frame_id", Value::String("/PSM1_base".to_owned()));
-        assert_eq!(frames("/", std::slice::from_ref(&base)), pairs(&[("scene", "body")]));
+        assert_eq!(frames("", std::slice::from_ref(&base)), pairs(&[("scene", "body")]));
         let pose = Value::DoubleArray(vec![0.0, 0.0, 0.1, 0.0, 0.0, 0.0, 1.0]);
         let given = [base, ("device.scene_from_device", pose)];
-        assert_eq!(frames("/", &given), pairs(&[("scene", "body"), ("scene", "PSM1_base")]));
+        assert_eq!(frames("", &given), pairs(&[("scene", "body"), ("scene", "PSM1_base")]));
     }
 }
