@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use node_kit::{Change, FrameTree, Level, NodeKit, Status, TransformListener, convert, topics};
 use rhombus_chain::{Body, Tissue};
 use scene::Scene;
@@ -51,7 +51,7 @@ impl Deformation {
     fn new(kit: &mut NodeKit) -> Result<Deformation> {
         let scene = Scene::from_parameters(kit.parameters().clone())?;
         let tissue = scene.tissue()?;
-        let loaded = scene.load_body()?;
+        let loaded = scene.load_body().context("body.mesh")?;
         for (name, value) in model::computed(tissue.law()) {
             kit.show_computed(name, value)?;
         }
@@ -62,8 +62,8 @@ impl Deformation {
 
         let body_frame = kit.frame_id(&scene.body.frame_id);
         let mesh = convert::mesh(loaded.body.mesh().vertices(), loaded.body.mesh().triangles());
-        let mut surface = Surface::new(kit, body_frame.clone(), convert::topology_version(&mesh))?;
-        surface.set_rate(scene.surface.rate_hz, &loaded.body, &tissue);
+        let mut surface = Surface::new(body_frame.clone(), convert::topology_version(&mesh));
+        surface.set_rate(kit, scene.surface.rate_hz, &loaded.body, &tissue)?;
         kit.publish(&topics::BODY_MESH, "")?.publish(&mesh)?;
         let names = &scene.session.devices;
         let devices: Result<Vec<Device>, _> =
@@ -103,12 +103,12 @@ impl Deformation {
     }
 
     /// Take over parameters that were set while the node runs. They have been checked.
-    fn retune(&mut self, kit: &NodeKit, changes: &[Change]) -> Result<()> {
+    fn retune(&mut self, kit: &mut NodeKit, changes: &[Change]) -> Result<()> {
         let scene = Scene::from_parameters(kit.parameters().clone())?;
         self.tissue = scene.tissue()?;
         self.devices.iter_mut().for_each(|device| device.retune(&self.tissue, &scene));
         if changes.iter().any(|change| change.name == "surface.rate") {
-            self.surface.set_rate(scene.surface.rate_hz, &self.body, &self.tissue);
+            self.surface.set_rate(kit, scene.surface.rate_hz, &self.body, &self.tissue)?;
         }
         for Change { name, value } in changes {
             kit.log().info(&format!("{name} is now {value}"));

@@ -4,31 +4,39 @@ use node_kit::{NodeKit, PublishError, Publisher, StartError, convert, topics};
 use r2r::rhombus_haptics_msgs::msg::SurfaceDisplacement;
 use rhombus_chain::{Body, DeviceSession, StampRate, SurfaceField, Tissue};
 
-/// The field, when it is due, and where it goes.
+/// The surface's output: the topic, and what fills it.
 pub(crate) struct Surface {
-    publisher: Publisher<SurfaceDisplacement>,
     message: SurfaceDisplacement,
+    /// Made when the rate is above zero for the first time.
+    publisher: Option<Publisher<SurfaceDisplacement>>,
     at_rate: Option<(StampRate, SurfaceField)>,
     published: u64,
 }
 
 impl Surface {
-    pub(crate) fn new(
-        kit: &mut NodeKit,
-        body_frame: String,
-        topology_version: u32,
-    ) -> Result<Surface, StartError> {
+    /// One that publishes nothing yet.
+    pub(crate) fn new(body_frame: String, topology_version: u32) -> Surface {
         let mut message = SurfaceDisplacement { topology_version, ..SurfaceDisplacement::default() };
         message.header.frame_id = body_frame;
-        let publisher = kit.publish(&topics::SURFACE_DISPLACEMENT, "")?;
-        Ok(Surface { publisher, message, at_rate: None, published: 0 })
+        Surface { message, publisher: None, at_rate: None, published: 0 }
     }
 
     /// Compute and publish `rate_hz` times in a second of stamps from now on; 0 drops the field and its memory.
-    pub(crate) fn set_rate(&mut self, rate_hz: f64, body: &Body, tissue: &Tissue) {
+    pub(crate) fn set_rate(
+        &mut self,
+        kit: &mut NodeKit,
+        rate_hz: f64,
+        body: &Body,
+        tissue: &Tissue,
+    ) -> Result<(), StartError> {
         let field = self.at_rate.take().map(|(_, field)| field);
-        self.at_rate = StampRate::new(rate_hz)
-            .map(|rate| (rate, field.unwrap_or_else(|| SurfaceField::new(body, tissue))));
+        if let Some(rate) = StampRate::new(rate_hz) {
+            self.at_rate = Some((rate, field.unwrap_or_else(|| SurfaceField::new(body, tissue))));
+            if self.publisher.is_none() {
+                self.publisher = Some(kit.publish(&topics::SURFACE_DISPLACEMENT, "")?);
+            }
+        }
+        Ok(())
     }
 
     /// Publish the displacement by all devices, if it is due at this stamp.
@@ -39,7 +47,9 @@ impl Surface {
         stamp_ns: i64,
         devices: impl Iterator<Item = &'a DeviceSession>,
     ) -> Result<(), PublishError> {
-        let Some((rate, field)) = &mut self.at_rate else { return Ok(()) };
+        let (Some((rate, field)), Some(publisher)) = (&mut self.at_rate, &self.publisher) else {
+            return Ok(());
+        };
         if !rate.is_due(stamp_ns) {
             return Ok(());
         }
@@ -49,7 +59,7 @@ impl Surface {
         self.message.displacement.clear();
         // f32: a tenth of a micrometre on a metre, and half the bytes.
         self.message.displacement.extend(field.displacements().iter().flat_map(|u| u.as_vec3().to_array()));
-        self.publisher.publish(&self.message)?;
+        publisher.publish(&self.message)?;
         self.published += 1;
         Ok(())
     }
