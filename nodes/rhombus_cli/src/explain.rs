@@ -1,19 +1,141 @@
-//! `rhombus explain`
+//! `rhombus explain`: what a scene builds, what it leaves out, and the memory of it.
+
+use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
+use scene::{Plan, Reader, Scene, TopicState};
+use serde::Serialize;
 
-/// What a scene builds and what it leaves out
+use crate::output;
+
+/// What a scene builds and what it leaves out: model, surface, device, viewer, topics, threads, memory
+///
+/// Reads the whole file, as all nodes together would, and builds the model; exit code 2 when a session could not start.
 #[derive(Args)]
 pub(crate) struct Explain {
     /// ROS 2 parameter file
     #[arg(value_name = "PARAMS.yaml", value_hint = ValueHint::FilePath)]
     parameters: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Field names and their order are the JSON.
+#[derive(Serialize)]
+struct Explanation {
+    scene: PathBuf,
+    built: Vec<Built>,
+    left_out: Vec<LeftOut>,
+    topics: Vec<Topic>,
+    threads: Vec<Threads>,
+    warnings: Vec<String>,
+    bytes: usize,
+}
+
+#[derive(Serialize)]
+struct Built {
+    part: &'static str,
+    node: &'static str,
+    what: String,
+    bytes: Option<usize>,
+}
+
+#[derive(Serialize)]
+struct LeftOut {
+    part: &'static str,
+    why: String,
+}
+
+#[derive(Serialize)]
+struct Topic {
+    name: String,
+    message: &'static str,
+    from: &'static str,
+    to: &'static str,
+    /// `active`, `silent` (advertised, nothing published) or `absent`.
+    state: &'static str,
+    why: Option<&'static str>,
+}
+
+#[derive(Serialize)]
+struct Threads {
+    node: &'static str,
+    threads: Vec<&'static str>,
 }
 
 impl Explain {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let _ = self.parameters;
-        Ok(())
+        let plan = Scene::from_file(&self.parameters, Reader::Everything)?.plan()?;
+        let explanation = Explanation::new(self.parameters, plan);
+        for warning in &explanation.warnings {
+            eprintln!("rhombus: warning: {warning}");
+        }
+        match self.json {
+            true => output::json(&explanation),
+            false => output::text(&explanation.to_string()),
+        }
+    }
+}
+
+impl Explanation {
+    fn new(scene: PathBuf, plan: Plan) -> Explanation {
+        let bytes = plan.bytes();
+        Explanation {
+            scene,
+            built: plan
+                .built
+                .into_iter()
+                .map(|p| Built { part: p.name, node: p.node.name(), what: p.what, bytes: p.bytes })
+                .collect(),
+            left_out: plan.left_out.into_iter().map(|l| LeftOut { part: l.name, why: l.why }).collect(),
+            topics: plan
+                .topics
+                .into_iter()
+                .map(|t| {
+                    let (state, why) = match t.state {
+                        TopicState::Active => ("active", None),
+                        TopicState::Silent(why) => ("silent", Some(why)),
+                        TopicState::Absent(why) => ("absent", Some(why)),
+                    };
+                    Topic { name: t.name, message: t.message, from: t.from, to: t.to, state, why }
+                })
+                .collect(),
+            threads: plan
+                .threads
+                .into_iter()
+                .map(|(node, threads)| Threads { node: node.name(), threads })
+                .collect(),
+            warnings: plan.warnings.iter().map(ToString::to_string).collect(),
+            bytes,
+        }
+    }
+}
+
+impl std::fmt::Display for Explanation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut text = String::new();
+        writeln!(text, "built")?;
+        for Built { part, what, bytes, .. } in &self.built {
+            let memory = bytes.map(|bytes| format!("; {}", output::bytes(bytes))).unwrap_or_default();
+            writeln!(text, "  {part:<15} {what}{memory}")?;
+        }
+        writeln!(text, "left out")?;
+        for LeftOut { part, why } in &self.left_out {
+            writeln!(text, "  {part:<15} {why}")?;
+        }
+        writeln!(text, "topics")?;
+        for Topic { name, message, from, to, state, why } in &self.topics {
+            let way = if to.is_empty() { (*from).to_owned() } else { format!("{from} -> {to}") };
+            let remark = why.map(|why| format!("; {state}: {why}")).unwrap_or_default();
+            writeln!(text, "  {name:<21} {message:<41} {way}{remark}")?;
+        }
+        writeln!(text, "threads")?;
+        for Threads { node, threads } in &self.threads {
+            writeln!(text, "  {node:<15} {}", threads.join(", "))?;
+        }
+        writeln!(text, "memory of the model: {}", output::bytes(self.bytes))?;
+        f.write_str(&text)
     }
 }

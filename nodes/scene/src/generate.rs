@@ -65,7 +65,8 @@ impl BodyKind {
     pub fn default_vertices(self) -> usize {
         match self {
             BodyKind::Liver => 3116,
-            BodyKind::Block | BodyKind::Sphere => 1002,
+            BodyKind::Block => 1018,
+            BodyKind::Sphere => 1002,
         }
     }
 }

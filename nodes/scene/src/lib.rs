@@ -8,6 +8,7 @@ mod mesh_file;
 mod mesh_source;
 mod origin;
 mod parameters;
+mod plan;
 mod scene;
 pub mod schema;
 mod sections;
@@ -22,6 +23,7 @@ pub use generate::BodyKind;
 pub use mesh_file::{MeshFile, Obj};
 pub use origin::Origin;
 pub use parameters::Parameters;
+pub use plan::{LeftOut, Part, Plan, PlannedTopic, TopicState};
 pub use scene::{
     BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
     ReplaySettings, Scene, SessionSettings, SimulatedSettings, SurfaceSettings, VisualizationSettings,

@@ -73,13 +73,38 @@ pub(crate) struct SyntaxError {
     pub(crate) message: String,
 }
 
+/// Brackets this deep are no parameter file, and cost the YAML parser time with the square of their depth.
+const DEEPEST: usize = 1000;
+
 /// Reads one document.
 pub(crate) fn parse(text: &str) -> Result<Tree, SyntaxError> {
+    if let Some(line) = line_of_depth(text, DEEPEST) {
+        let message = format!("brackets are open {DEEPEST} deep; accepted: a few");
+        return Err(SyntaxError { line: Some(line), message });
+    }
     let reader = Reader { next: &Cell::new(0), stop_at: None };
     reader.deserialize(serde_yaml::Deserializer::from_str(text)).map_err(|error| SyntaxError {
         line: error.location().map(|place| place.line()),
         message: error.to_string(),
     })
+}
+
+/// The line where `depth` brackets are open, if there is one. Brackets in texts and comments count too: nobody has a
+/// thousand of those open either.
+fn line_of_depth(text: &str, depth: usize) -> Option<usize> {
+    let (mut open, mut line) = (0_usize, 1);
+    for byte in text.bytes() {
+        match byte {
+            b'\n' => line += 1,
+            b'[' | b'{' => open += 1,
+            b']' | b'}' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        if open >= depth {
+            return Some(line);
+        }
+    }
+    None
 }
 
 /// Line, counted from 1, of the `node`-th node of a document that [`parse`] accepts.

@@ -1,0 +1,86 @@
+//! The topics of a session: who tells whom, and which of them stay silent in a scene.
+
+use crate::Scene;
+
+/// A topic of the session.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlannedTopic {
+    /// Name relative to the namespace of the session; a leading `/` is global.
+    pub name: String,
+    /// ROS message type, `package/Type`.
+    pub message: &'static str,
+    /// Who publishes.
+    pub from: &'static str,
+    /// Who of the session subscribes.
+    pub to: &'static str,
+    /// Whether messages flow.
+    pub state: TopicState,
+}
+
+/// Whether messages flow on a topic.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TopicState {
+    /// They do.
+    Active,
+    /// The topic is there, nothing is published; the text says why.
+    Silent(&'static str),
+    /// Nobody publishes the topic; the text says why.
+    Absent(&'static str),
+}
+
+/// Name, message, from, to.
+type Row = (&'static str, &'static str, &'static str, &'static str);
+
+/// One of each for every device.
+const DEVICE: [Row; 9] = [
+    ("measured_cp", "geometry_msgs/PoseStamped", "haptic_device", "deformation, visualization"),
+    ("measured_cv", "geometry_msgs/TwistStamped", "haptic_device", ""),
+    ("measured_cf", "geometry_msgs/WrenchStamped", "haptic_device", ""),
+    ("gripper/measured_js", "sensor_msgs/JointState", "haptic_device", "deformation"),
+    ("grasp", "std_msgs/Bool", "anyone", "deformation"),
+    ("clutch", "sensor_msgs/Joy", "haptic_device", "deformation"),
+    ("servo_cf", "geometry_msgs/WrenchStamped", "deformation", "haptic_device, visualization"),
+    ("contact_law", "rhombus_haptics_msgs/ContactLaw", "deformation", "haptic_device"),
+    ("contact_state", "rhombus_haptics_msgs/ContactState", "deformation", "visualization"),
+];
+
+/// One for the session.
+const SESSION: [Row; 8] = [
+    ("surface_displacement", "rhombus_haptics_msgs/SurfaceDisplacement", "deformation", "visualization"),
+    ("body_mesh", "shape_msgs/Mesh", "deformation", "visualization"),
+    ("markers", "visualization_msgs/MarkerArray", "visualization", ""),
+    ("/diagnostics", "diagnostic_msgs/DiagnosticArray", "every node", ""),
+    ("/rosout", "rcl_interfaces/Log", "every node", ""),
+    ("/parameter_events", "rcl_interfaces/ParameterEvent", "every node", ""),
+    ("/tf", "tf2_msgs/TFMessage", "visualization", "deformation"),
+    ("/tf_static", "tf2_msgs/TFMessage", "visualization", "deformation"),
+];
+
+pub(super) fn planned(scene: &Scene) -> Vec<PlannedTopic> {
+    let devices = scene.session.devices.iter().flat_map(|device| {
+        DEVICE.into_iter().map(move |(name, message, from, to)| {
+            let name = match device.trim_end_matches('/') {
+                "" => name.to_owned(),
+                device => format!("{device}/{name}"),
+            };
+            (name, message, from, to)
+        })
+    });
+    let session = SESSION.into_iter().map(|(name, message, from, to)| (name.to_owned(), message, from, to));
+    devices
+        .chain(session)
+        .map(|(name, message, from, to)| {
+            let state = state(scene, name.rsplit('/').next().unwrap_or_default());
+            PlannedTopic { name, message, from, to, state }
+        })
+        .collect()
+}
+
+fn state(scene: &Scene, topic: &str) -> TopicState {
+    match topic {
+        "surface_displacement" if scene.surface.rate_hz <= 0.0 => TopicState::Silent("surface.rate is 0"),
+        "markers" if !scene.has_markers() => TopicState::Silent("visualization.rate is 0"),
+        "clutch" if scene.session.clutch_button.is_none() => TopicState::Absent("clutch.button is \"\""),
+        _ => TopicState::Active,
+    }
+}
