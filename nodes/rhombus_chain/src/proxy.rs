@@ -124,50 +124,38 @@ fn proxy(mesh: &SurfaceMesh, at: SurfacePoint, probe: DVec3) -> Option<Proxy> {
 
 /// Weights of the corners at which `probe` lies on the triangle moved along its corner normals by some height t.
 ///
-/// With `P_i(t) = p_i + t n_i - probe` the three are coplanar where the cubic `P_0 . (P_1 x P_2)` vanishes. The solution that
-/// belongs to the surface is the first one on the way from t = 0 towards the probe. `None` when there is none before the moved
-/// triangle turns over.
+/// Newton's method for the height at which the moved triangle's plane passes through the probe. The plane's point next to the
+/// probe, with the weights b, moves with `sum b_i n_i`; so the distance changes with t by that velocity along the plane's normal.
+/// `None` where the triangle turns over on the way: normals have crossed.
 fn weights_at_height(corners: [DVec3; 3], normals: [DVec3; 3], probe: DVec3) -> Option<DVec3> {
-    let a = corners.map(|p| p - probe);
-    let plane = (a[1] - a[0]).cross(a[2] - a[0]);
-    let t = first_root(a, normals)?;
-    let p = [a[0] + normals[0] * t, a[1] + normals[1] * t, a[2] + normals[2] * t];
-    let areas = [p[1].cross(p[2]), p[2].cross(p[0]), p[0].cross(p[1])];
-    let area = (p[1] - p[0]).cross(p[2] - p[0]);
-    if area.dot(plane) <= 0.0 {
-        return None;
-    }
-    let weights = DVec3::new(areas[0].dot(area), areas[1].dot(area), areas[2].dot(area));
-    let sum = weights.x + weights.y + weights.z;
-    let weights = weights / sum;
-    weights.is_finite().then_some(weights)
-}
-
-/// The root of `det(a_0 + t n_0, a_1 + t n_1, a_2 + t n_2)` that is reached first from t = 0.
-fn first_root(a: [DVec3; 3], n: [DVec3; 3]) -> Option<f64> {
-    let det = |x: DVec3, y: DVec3, z: DVec3| x.dot(y.cross(z));
-    let c0 = det(a[0], a[1], a[2]);
-    let c1 = det(n[0], a[1], a[2]) + det(a[0], n[1], a[2]) + det(a[0], a[1], n[2]);
-    let c2 = det(a[0], n[1], n[2]) + det(n[0], a[1], n[2]) + det(n[0], n[1], a[2]);
-    let c3 = det(n[0], n[1], n[2]);
+    let from_probe = corners.map(|p| p - probe);
+    let rest_area = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let mut t = 0.0;
-    let slope = c1;
     for _ in 0..NEWTON_LIMIT {
-        let value = ((c3 * t + c2) * t + c1) * t + c0;
-        let derivative = (3.0 * c3 * t + 2.0 * c2) * t + c1;
-        // The triangle turns over where the derivative changes its sign.
-        if derivative * slope <= 0.0 {
+        let p: [DVec3; 3] = std::array::from_fn(|k| from_probe[k] + normals[k] * t);
+        let area = (p[1] - p[0]).cross(p[2] - p[0]);
+        let square = area.length_squared();
+        if area.dot(rest_area) <= 0.0 || square == 0.0 {
             return None;
         }
-        let step = value / derivative;
-        t -= step;
-        if step.abs() <= 1e-14 * t.abs() {
-            return t.is_finite().then_some(t);
+        let part = |u: DVec3, v: DVec3| u.cross(v).dot(area) / square;
+        let weights = DVec3::new(part(p[1], p[2]), part(p[2], p[0]), part(p[0], p[1]));
+        // Both times the length of `area`.
+        let distance = -p[0].dot(area);
+        let velocity = (normals[0] * weights.x + normals[1] * weights.y + normals[2] * weights.z).dot(area);
+        if velocity <= 0.0 {
+            return None;
         }
+        let step = distance / velocity;
+        // As far as the digits of the positions go.
+        if step.abs() <= 1e-14 * (from_probe[0].abs().max_element() + t.abs()) {
+            return weights.is_finite().then_some(weights);
+        }
+        t += step;
     }
     None
 }
 
-/// Newton doubles the digits with every step; from a start of no digits, more are never needed on a surface that does
-/// not fold.
-const NEWTON_LIMIT: usize = 24;
+/// Newton's method doubles its digits with every step once it has some; it needs three or four steps on a surface that
+/// is not folded.
+const NEWTON_LIMIT: usize = 20;

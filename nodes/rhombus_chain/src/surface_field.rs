@@ -217,10 +217,10 @@ fn away(offset: DVec3, normal: DVec3) -> DVec3 {
     if scale > 0.0 { in_plane / scale } else { DVec3::ZERO }
 }
 
-/// The next number above with three binary digits behind the first. While a contact stays where it is, its depth changes; so its
+/// The next number above with five binary digits behind the first. While a contact stays where it is, its depth changes; so its
 /// neighbourhood is computed anew only when the reach passes one of these steps, and depends on nothing but the present reach.
 fn rounded_up(reach: f64) -> f64 {
-    const DROPPED: u64 = (1 << 49) - 1;
+    const DROPPED: u64 = (1 << 47) - 1;
     let bits = reach.to_bits();
     // The bits of positive numbers are ordered as the numbers are.
     if reach.is_finite() && reach > 0.0 { f64::from_bits((bits + DROPPED) & !DROPPED) } else { reach }

@@ -1,27 +1,39 @@
 //! What the labelling needs to know of the triangles around each vertex.
 
-use std::ops::Range;
-
 use crate::mesh::{SurfaceMesh, destination, length};
 
-/// One edge seen from its start, with the angle to the next edge around that vertex.
+/// One edge seen from its start, and the triangle between it and the next edge around that vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
     /// The edge's other end.
     pub(super) to: u32,
-    /// Length of the edge in metres.
-    pub(super) length: f64,
-    /// Angle from this edge to the next one of the fan.
-    pub(super) cos: f64,
-    pub(super) sin: f64,
+    /// Length of the edge times the cosine of the larger of the two angles at its other end.
+    turn_m: f32,
+    pub(super) length_m: f64,
+    /// Cosine and sine of the angle to the next edge.
+    pub(super) angle: [f64; 2],
 }
 
-/// Fans of all vertices, one after another.
+impl Edge {
+    /// Whether a vertex `start_m` away from the source may shorten the `end_m` at the edge's other end. `false` is certain.
+    ///
+    /// A straight way to the end through a triangle beside the edge comes at an angle phi from the edge, no larger than the
+    /// triangle's angle there. Where it is `end_m` long, the start is `sqrt(end^2 + l^2 - 2 end l cos phi)` away: at most that with the
+    /// larger angle. A start that is farther away has no such way that is shorter than `end_m`.
+    #[inline]
+    pub(super) fn may_shorten(&self, end_m: f64, start_m: f64) -> bool {
+        let l = self.length_m;
+        let slack = 1.0 + 1e-6; // the angle is in single precision
+        start_m * start_m <= (end_m * (end_m - 2.0 * f64::from(self.turn_m)) + l * l) * slack
+    }
+}
+
+/// Fans of all vertices, one after another. A fan ends with its first edge again, to go round without asking.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
     starts: Vec<u32>,
     edges: Vec<Edge>,
-    /// What decides how far behind the limit a vertex still matters to vertices before it, see [`reach`].
+    /// For each vertex b, over its triangles a b c: the longest edge b c, and the largest `-cos` of the angle at c, at least 0.
     reach: Vec<[f64; 2]>,
 }
 
@@ -29,46 +41,59 @@ impl Table {
     pub(super) fn new(mesh: &SurfaceMesh) -> Self {
         let vertices = mesh.vertices();
         let mut starts = Vec::with_capacity(vertices.len() + 1);
-        let mut edges = Vec::with_capacity(3 * mesh.triangles().len());
+        let mut edges = Vec::with_capacity(3 * mesh.triangles().len() + vertices.len());
+        let mut reach = vec![[0.0f64; 2]; vertices.len()];
         starts.push(0);
         for (vertex, &position) in (0u32..).zip(vertices) {
             let first = edges.len();
-            let way = |h| vertices[destination(mesh.triangles(), h) as usize] - position;
+            let way = |edge: &Edge| vertices[edge.to as usize] - position;
             for h in mesh.fan(vertex) {
                 let to = destination(mesh.triangles(), h);
-                edges.push(Edge { to, length: length(way(h)), cos: 0.0, sin: 0.0 });
+                let length_m = length(vertices[to as usize] - position);
+                edges.push(Edge { to, length_m, turn_m: f32::INFINITY, angle: [1.0, 0.0] });
             }
-            let count = edges.len() - first;
-            for (k, h) in mesh.fan(vertex).enumerate() {
-                let next = edges[first + (k + 1) % count];
-                let (u, v) = (way(h), vertices[next.to as usize] - position);
-                let edge = &mut edges[first + k];
-                let product = edge.length * next.length;
-                (edge.cos, edge.sin) = (u.dot(v) / product, length(u.cross(v)) / product);
+            let fan = &mut edges[first..];
+            for k in 0..fan.len() {
+                let next = (k + 1) % fan.len();
+                let (u, v) = (way(&fan[k]), way(&fan[next]));
+                let (product, opposite) = (fan[k].length_m * fan[next].length_m, length(v - u));
+                fan[k].angle = [u.dot(v) / product, length(u.cross(v)) / product];
+                for (end, turn_m) in [(k, u.dot(u - v) / opposite), (next, v.dot(v - u) / opposite)] {
+                    let edge = &mut fan[end];
+                    edge.turn_m = edge.turn_m.min(turn_m as f32);
+                    let [longest, obtuse] = &mut reach[vertex as usize];
+                    *longest = longest.max(edge.length_m);
+                    *obtuse = obtuse.max(-turn_m / edge.length_m);
+                }
             }
+            edges.extend_from_within(first..first + 1);
             starts.push(edges.len() as u32);
         }
-        let reach = reach(&starts, &edges);
         Self { starts, edges, reach }
     }
 
-    /// Places of a vertex's fan.
+    /// The edges around a vertex, and the first one again.
     #[inline]
-    pub(super) fn fan(&self, vertex: u32) -> Range<usize> {
-        self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize
+    pub(super) fn fan(&self, vertex: u32) -> &[Edge] {
+        let v = vertex as usize;
+        &self.edges[self.starts[v] as usize..self.starts[v + 1] as usize]
     }
 
+    /// Arc length up to which a vertex b can matter to arcs below `limit_m`: it can shorten the way to a vertex c before it.
+    ///
+    /// With the source at distance D from c, at an angle phi from the edge c b of length l, b is at
+    /// `sqrt(D^2 + l^2 - 2 D l cos phi)`. The way crosses a triangle a b c, so phi is at most its angle at c: only an obtuse one leaves
+    /// a distance behind c that does not shrink with D. Twice that, for b may in turn depend on vertices behind it.
     #[inline]
-    pub(super) fn edge(&self, place: usize) -> Edge {
-        self.edges[place]
-    }
-
-    /// Arc length up to which `vertex` can matter to arcs below `limit_m`.
-    #[inline]
-    pub(super) fn horizon(&self, vertex: u32, limit_m: f64) -> f64 {
+    pub(super) fn horizon_m(&self, vertex: u32, limit_m: f64) -> f64 {
         let [l, obtuse] = self.reach[vertex as usize];
         let behind = (limit_m * limit_m + l * (l + 2.0 * limit_m * obtuse)).sqrt() - limit_m;
         limit_m + 2.0 * behind
+    }
+
+    pub(super) fn mean_and_longest_edge_m(&self) -> [f64; 2] {
+        let lengths = self.edges.iter().map(|edge| edge.length_m);
+        [lengths.clone().sum::<f64>() / self.edges.len() as f64, lengths.fold(0.0, f64::max)]
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
@@ -76,25 +101,4 @@ impl Table {
             + self.edges.capacity() * size_of::<Edge>()
             + self.reach.capacity() * size_of::<[f64; 2]>()
     }
-}
-
-/// How far behind a vertex c the vertex b can be and still shorten the way to c through the triangle a b c.
-///
-/// With the source at distance D from c, at an angle phi from the edge c b, of length l, b is at
-/// `sqrt(D^2 + l^2 - 2 D l cos phi)`. The way crosses the edge a b, so phi is at most the angle at c: only an obtuse one leaves
-/// a distance behind c that does not shrink with D. For each vertex b the largest l and the largest `-cos phi`, 0 at least.
-fn reach(starts: &[u32], edges: &[Edge]) -> Vec<[f64; 2]> {
-    let mut reach = vec![[0.0f64; 2]; starts.len() - 1];
-    for fan in starts.windows(2) {
-        let fan = &edges[fan[0] as usize..fan[1] as usize];
-        for (k, edge) in fan.iter().enumerate() {
-            let next = fan[(k + 1) % fan.len()];
-            for (to, length) in [(edge.to, edge.length), (next.to, next.length)] {
-                let [l, obtuse] = &mut reach[to as usize];
-                *l = l.max(length);
-                *obtuse = obtuse.max(-edge.cos);
-            }
-        }
-    }
-    reach
 }

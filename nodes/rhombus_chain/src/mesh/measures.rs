@@ -48,8 +48,7 @@ pub(crate) fn longest_edge_and_height([a, b, c]: [DVec3; 3]) -> (f64, f64) {
 
 /// Whether a triangle has no area to speak of.
 pub(crate) fn is_degenerate(longest_edge_m: f64, height_m: f64) -> bool {
-    // Written so that NaN is degenerate.
-    !(height_m > DEGENERATE_HEIGHT * longest_edge_m)
+    height_m <= DEGENERATE_HEIGHT * longest_edge_m
 }
 
 /// Smallest and largest coordinates.

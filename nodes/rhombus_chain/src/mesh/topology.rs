@@ -63,7 +63,7 @@ pub(crate) fn destination(triangles: &[[u32; 3]], h: u32) -> u32 {
 
 /// The half-edge before `h` in its triangle.
 pub(crate) fn previous(h: u32) -> u32 {
-    if h % 3 == 0 { h + 2 } else { h - 1 }
+    if h.is_multiple_of(3) { h + 2 } else { h - 1 }
 }
 
 impl<'a> HalfEdges<'a> {

@@ -1,5 +1,6 @@
 //! Bodies and tissues the tests share. Metres, newton.
 #![allow(dead_code, reason = "every test file uses its own selection")]
+#![allow(clippy::expect_used, reason = "what is made here is valid by construction")]
 
 use std::collections::BTreeMap;
 
