@@ -126,9 +126,9 @@ def start_nodes(options, log_directory):
     ]
     if options.record:
         recorder = {
-            "bag.mode": "record",
-            "bag.directory": json.dumps(str(REPOSITORY / "recordings")),
-            "bag.name": json.dumps(options.name),
+            "bag_replay.mode": "record",
+            "recording.directory": json.dumps(str(REPOSITORY / "recordings")),
+            "recording.name": json.dumps(options.name),
         }
         plan.insert(0, ("bag_replay", "recorder", recorder))
     for executable, name, parameters in plan:
