@@ -23,7 +23,7 @@ pub(crate) struct Evaluate {
     #[command(flatten)]
     at: At,
     /// Displacement of the surface at these distances: arc length from the contact less probe.contact_radius, m
-    #[arg(long, value_name = "S1,S2,..", value_delimiter = ',', allow_negative_numbers = true, value_parser = distance)]
+    #[arg(long, value_name = "S1,S2,..", value_delimiter = ',', allow_hyphen_values = true, value_parser = distance)]
     profile: Vec<f64>,
     /// Print JSON
     #[arg(long)]
@@ -34,10 +34,10 @@ pub(crate) struct Evaluate {
 #[group(required = true, multiple = false)]
 struct At {
     /// Depth, positive into the body, m
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = finite)]
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = finite)]
     depth: Option<f64>,
     /// Force on the hand, positive pushes out, N
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = finite)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = finite)]
     force: Option<f64>,
 }
 

@@ -73,9 +73,7 @@ impl Origin {
     }
 }
 
+/// Empty for a file in the working directory, so that paths in messages stay as they were written.
 fn directory_of(file: &Path) -> PathBuf {
-    match file.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
-        _ => PathBuf::from("."),
-    }
+    file.parent().map(Path::to_owned).unwrap_or_default()
 }

@@ -98,6 +98,8 @@ pub struct SessionSettings {
     pub devices: Vec<String>,
     /// The clutch button; none when empty.
     pub clutch_button: Option<String>,
+    /// Time comes from `/clock`.
+    pub use_sim_time: bool,
 }
 
 /// `device.*`.
@@ -225,6 +227,7 @@ impl Scene {
                 scene_frame_id: p.text("scene.frame_id")?.to_owned(),
                 devices: p.texts("devices")?.to_vec(),
                 clutch_button: non_empty(p.text("clutch.button")?).map(str::to_owned),
+                use_sim_time: p.bool("use_sim_time")?,
             },
             device: DeviceSettings {
                 backend: p.text("device.backend")?.to_owned(),

@@ -1,4 +1,5 @@
 //! Whatever bytes a file holds, reading it ends with a result or an error: never a panic, never without end.
+#![expect(clippy::expect_used, reason = "a test may fail here")]
 
 use std::path::Path;
 

@@ -1,4 +1,5 @@
 //! Every file in config/ is a scene that runs, and feels as its comments say.
+#![expect(clippy::expect_used, reason = "a test may fail here")]
 
 use std::path::{Path, PathBuf};
 

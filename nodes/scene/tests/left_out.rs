@@ -1,5 +1,6 @@
 //! What a scene leaves out is not there: counted in bytes that the allocator handed out.
 #![expect(unsafe_code, reason = "a counting allocator is an allocator")]
+#![expect(clippy::expect_used, reason = "a test may fail here")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;

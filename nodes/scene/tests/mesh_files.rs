@@ -1,4 +1,5 @@
 //! OBJ files: what is read, what is refused and where, and the warning about a likely wrong unit.
+#![expect(clippy::expect_used, reason = "a test may fail here")]
 
 use scene::{MeshFile, Obj, Origin, Scene, Value, generate};
 

@@ -1,4 +1,5 @@
 //! What is read from a parameter file, and for every kind of bad file the one message that says where and what.
+#![expect(clippy::expect_used, reason = "a test may fail here")]
 
 use std::path::Path;
 

@@ -1,4 +1,5 @@
 //! What a press site promises.
+#![expect(clippy::expect_used, reason = "a test may fail here")]
 
 use rhombus_chain::{Body, SurfaceMesh};
 use scene::generate::body;

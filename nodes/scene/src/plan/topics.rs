@@ -45,13 +45,14 @@ const DEVICE: [Row; 9] = [
 ];
 
 /// One for the session.
-const SESSION: [Row; 8] = [
+const SESSION: [Row; 9] = [
     ("surface_displacement", "rhombus_haptics_msgs/SurfaceDisplacement", "deformation", "visualization"),
     ("body_mesh", "shape_msgs/Mesh", "deformation", "visualization"),
     ("markers", "visualization_msgs/MarkerArray", "visualization", ""),
     ("/diagnostics", "diagnostic_msgs/DiagnosticArray", "every node", ""),
     ("/rosout", "rcl_interfaces/Log", "every node", ""),
     ("/parameter_events", "rcl_interfaces/ParameterEvent", "every node", ""),
+    ("/clock", "rosgraph_msgs/Clock", "anyone", "every node"),
     ("/tf", "tf2_msgs/TFMessage", "visualization", "deformation"),
     ("/tf_static", "tf2_msgs/TFMessage", "visualization", "deformation"),
 ];
@@ -81,6 +82,7 @@ fn state(scene: &Scene, topic: &str) -> TopicState {
         "surface_displacement" if scene.surface.rate_hz <= 0.0 => TopicState::Silent("surface.rate is 0"),
         "markers" if !scene.has_markers() => TopicState::Silent("visualization.rate is 0"),
         "clutch" if scene.session.clutch_button.is_none() => TopicState::Absent("clutch.button is \"\""),
+        "clock" if !scene.session.use_sim_time => TopicState::Absent("use_sim_time is false"),
         _ => TopicState::Active,
     }
 }
