@@ -20,7 +20,7 @@ pub(crate) fn backend(scene: &Scene, log: &Log) -> Result<Backend> {
 
 /// A hand that presses, slides, grasps and pulls at sites of the scene's body.
 fn simulated_hand(scene: &Scene, log: &Log) -> Result<simulated::Settings> {
-    let loaded = scene.load_body()?;
+    let loaded = scene.load_body().context("body.mesh")?;
     for warning in &loaded.warnings {
         log.warn(&warning.to_string());
     }

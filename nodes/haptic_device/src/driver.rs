@@ -26,6 +26,8 @@ const TURN: Duration = Duration::from_millis(10);
 const LAST_FORCES: Duration = Duration::from_millis(200);
 /// Between the discovery of the last reader and the first pose: time for the readers to discover this node, too.
 const SETTLE: Duration = Duration::from_millis(300);
+/// Between two lines about readers that are missing.
+const REMINDER: Duration = Duration::from_secs(5);
 
 /// Runs the driver until the process is asked to end or the device is lost.
 pub(crate) fn run(kit: &mut NodeKit) -> Result<()> {
@@ -201,15 +203,16 @@ fn wait_for_readers(kit: &mut NodeKit, topics: &DeviceTopics, count: usize) {
     if count == 0 {
         return;
     }
-    let mut reminder = Throttle::new(Duration::from_secs(5));
+    let mut remind_at = Instant::now() + REMINDER;
     while kit.is_running() && topics.readers() < count {
         kit.spin_once(TURN);
-        reminder.warn(kit.log(), || {
-            format!(
-                "waiting for {count} readers of the poses (device.wait_for_readers); {} are there",
-                topics.readers()
-            )
-        });
+        if Instant::now() >= remind_at {
+            remind_at += REMINDER;
+            let found = topics.readers();
+            kit.log().warn(&format!(
+                "device.wait_for_readers: {found} of {count} readers of measured_cp are there"
+            ));
+        }
     }
     let settled = Instant::now() + SETTLE;
     while kit.is_running() && Instant::now() < settled {
