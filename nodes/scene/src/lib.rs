@@ -1,4 +1,32 @@
 //! What a scene file may say: names, units, ranges, defaults, validation; mesh files in, checked bodies out.
+//!
+//! One table, [`schema()`], has every parameter of every node. What checks a file, what a node declares and what the
+//! documentation shows are made from it. Values go one way and get safer on it:
+//!
+//! ```text
+//! parameter file ─┐  known names, types, ranges            together               built
+//! node's values  ─┴─> Parameters ───────────────> Scene ─────────────> Tissue, Body
+//! ```
+//!
+//! A parameter file is an ordinary ROS 2 one and is read as strictly as ROS 2 reads it: an array of numbers has a
+//! decimal point in every entry (`[1.0, 2.0]`; `[1, 2]` is an array of integers and is refused, `[1, 2.0]` is none at
+//! all), while an integer is accepted where a single number is expected. Every error says file, line, parameter, value
+//! and what is accepted.
+//!
+//! ```
+//! use scene::{Origin, Scene, Value};
+//!
+//! let slow = [("surface.rate".to_owned(), Value::Integer(10))];
+//! let scene = Scene::from_values(slow, Origin::named("example"))?;
+//! assert_eq!(scene.surface.rate_hz, 10.0);
+//! let body = scene.load_body()?.body;
+//! assert_eq!(body.mesh().vertices().len(), 3116);
+//!
+//! let never = [("surface.rate".to_owned(), Value::Double(-1.0))];
+//! let error = Scene::from_values(never, Origin::named("example")).unwrap_err();
+//! assert_eq!(error.to_string(), "example: surface.rate: -1.0 is not accepted; accepted: number, 0 to 1000 [Hz]");
+//! # Ok::<(), scene::SceneError>(())
+//! ```
 
 mod body;
 mod chains;
@@ -12,6 +40,7 @@ mod plan;
 mod scene;
 pub mod schema;
 mod sections;
+mod settings;
 mod sites;
 mod value;
 mod yaml;
@@ -24,11 +53,12 @@ pub use mesh_file::{MeshFile, Obj};
 pub use origin::Origin;
 pub use parameters::Parameters;
 pub use plan::{LeftOut, Part, Plan, PlannedTopic, TopicState};
-pub use scene::{
-    BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
-    ReplaySettings, Scene, SessionSettings, SimulatedSettings, SurfaceSettings, VisualizationSettings,
-};
+pub use scene::Scene;
 pub use schema::{Check, DefaultValue, Kind, Length, Node, ParameterSpec, schema};
 pub use sections::Reader;
+pub use settings::{
+    BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
+    ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, VisualizationSettings,
+};
 pub use sites::{Site, sites};
 pub use value::Value;

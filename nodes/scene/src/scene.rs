@@ -2,9 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use rhombus_chain::{ContactLaw, ParameterError, Pose, Spread, SurfaceParameters, Tissue, TissueError};
+use rhombus_chain::{ContactLaw, ParameterError, Pose, SurfaceParameters, Tissue, TissueError};
 
-use crate::{BodyKind, ChainSettings, Parameters, Problem, Reader, SceneError, Value};
+use crate::settings::{
+    BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
+    ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, VisualizationSettings,
+};
+use crate::{ChainSettings, Parameters, Problem, Reader, SceneError, Value};
 
 /// A validated scene. Every value has been checked against the schema; what depends on several values has been
 /// checked too, except the chains and the mesh, which only the nodes that use them build: [`Scene::tissue`],
@@ -34,145 +38,6 @@ pub struct Scene {
     /// What is replayed.
     pub replay: ReplaySettings,
     parameters: Parameters,
-}
-
-/// `body.*`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BodySettings {
-    /// Where the rest surface comes from.
-    pub mesh: MeshSource,
-    /// Factor that makes mesh coordinates metres.
-    pub scale: f64,
-    /// Frame of the rest surface.
-    pub frame_id: String,
-    /// Pose of the body in the scene.
-    pub scene_from_body: Pose,
-}
-
-/// Where a rest surface comes from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum MeshSource {
-    /// Generated, with its default number of vertices.
-    BuiltIn(BodyKind),
-    /// An OBJ file; the path is resolved.
-    File(PathBuf),
-}
-
-/// `surface.*`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfaceSettings {
-    /// Boundary criterion, share of the rest angle.
-    pub cutoff: f64,
-    /// Share of the displaced volume that bulges outward; 0 computes none.
-    pub expansion: f64,
-    /// Meaning of distance from the contact.
-    pub spread: Spread,
-    /// Published displacements, Hz of stamps; 0 computes none.
-    pub rate_hz: f64,
-}
-
-/// `probe.*`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProbeSettings {
-    /// Radius of the sphere, m.
-    pub radius_m: f64,
-    /// Radius that moves with the contact by the full depth, m.
-    pub contact_radius_m: f64,
-}
-
-/// `grasp.*`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GraspSettings {
-    /// Lateral stiffness as a share of the law's stiffness at rest.
-    pub lateral: f64,
-    /// The gripper holds below this angle, rad.
-    pub close_below_rad: f64,
-}
-
-/// What the nodes of a session share.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SessionSettings {
-    /// Frame in which body and devices stand.
-    pub scene_frame_id: String,
-    /// Sub-namespaces of the devices' topics; the empty text is the node's own namespace.
-    pub devices: Vec<String>,
-    /// The clutch button; none when empty.
-    pub clutch_button: Option<String>,
-    /// Time comes from `/clock`.
-    pub use_sim_time: bool,
-}
-
-/// `device.*`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DeviceSettings {
-    /// Name of the backend.
-    pub backend: String,
-    /// Frame of the device's poses.
-    pub frame_id: String,
-    /// Pose of the device's base in the scene.
-    pub scene_from_device: Pose,
-    /// Motion in the scene for each metre of motion of the device.
-    pub motion_scale: f64,
-    /// Rate of the motor loop, Hz.
-    pub rate_hz: f64,
-    /// Largest force on the hand, N.
-    pub max_force_n: f64,
-    /// What the motors follow: `contact_law` or `servo_cf`.
-    pub force_source: String,
-    /// Subscriptions of the poses to wait for before the motors start.
-    pub wait_for_readers: usize,
-}
-
-/// `simulated.*`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SimulatedSettings {
-    /// Mass of the hand and the moving parts of the device, kg.
-    pub mass_kg: f64,
-    /// Stiffness with which the hand follows its path, N/m.
-    pub stiffness_n_per_m: f64,
-    /// Damping to its path, N s/m.
-    pub damping_n_s_per_m: f64,
-    /// Intended press, m.
-    pub depth_m: f64,
-    /// Intended pull of the grasped surface, m.
-    pub pull_m: f64,
-    /// Intended slide along the surface, m.
-    pub slide_m: f64,
-    /// Time for a pair of sites, s.
-    pub period_s: f64,
-}
-
-/// `visualization.*`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VisualizationSettings {
-    /// Published markers, Hz; 0 publishes none.
-    pub rate_hz: f64,
-    /// Displacement of the last colour, m.
-    pub full_scale_m: f64,
-    /// Displacements are drawn this many times as large.
-    pub displacement_scale: f64,
-    /// Length of the force arrow, m for each N.
-    pub force_scale_m_per_n: f64,
-    /// Draw the chains at each contact.
-    pub show_chains: bool,
-}
-
-/// `recording.*`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RecordingSettings {
-    /// Folder of the recordings.
-    pub directory: PathBuf,
-    /// Topics to record; empty means every topic of the session.
-    pub topics: Vec<String>,
-}
-
-/// `replay.*`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReplaySettings {
-    /// Recording to play.
-    pub path: Option<PathBuf>,
-    /// Speed, 1 as recorded.
-    pub rate: f64,
 }
 
 impl Scene {
