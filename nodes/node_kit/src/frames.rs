@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use rhombus_chain::Pose;
 
-/// Frames of more than this many children are a broken publisher, not a scene.
+/// More frames than this are a broken publisher, not a scene.
 const MAX_FRAMES: usize = 10_000;
 
 /// The frame a parameter means: a relative name gets the node's namespace in front ("/left" and "device_base" give

@@ -61,4 +61,20 @@ mod tests {
         low_level::raise(SIGTERM).unwrap();
         assert!(watcher.is_requested());
     }
+
+    #[test]
+    fn a_panic_in_any_thread_ends_the_process_with_a_code_of_its_own() {
+        const INNER: &str = "RHOMBUS_TEST_PANICS";
+        if std::env::var_os(INNER).is_some() {
+            exit_on_panic();
+            let thread = std::thread::Builder::new().spawn(|| panic!("on purpose")).unwrap();
+            let _ = thread.join();
+            return; // Not reached: this test would pass and the process end with 0.
+        }
+        let name = "shutdown::tests::a_panic_in_any_thread_ends_the_process_with_a_code_of_its_own";
+        let mut again = std::process::Command::new(std::env::current_exe().unwrap());
+        let output = again.args(["--exact", name, "--nocapture"]).env(INNER, "1").output().unwrap();
+        assert_eq!(output.status.code(), Some(PANIC_EXIT_CODE));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("on purpose"));
+    }
 }

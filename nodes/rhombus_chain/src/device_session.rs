@@ -4,9 +4,9 @@
 //! of what came in. It is here and not in a node, so that a recording is replayed with the same code without ROS.
 //!
 //! The probe is at `body_from_frame * (motion_scale * hand) + offset`. The scale stretches the hand's position about the
-//! origin of the frame the pose came in; forces are not scaled. The offset is zero until the clutch or a change of the
-//! scale moves it. While the clutch is held the probe stays where it is, and so does the force; the offset follows the
-//! hand, and on release the motion goes on from there.
+//! origin of the frame the pose came in; forces are not scaled. The offset is zero until the clutch moves it: while the
+//! clutch is held the probe stays where it is, and so does the force; the offset follows the hand, and on release the
+//! motion goes on from there.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -25,8 +25,8 @@ pub struct DeviceSession {
     motion_scale: f64,
     /// What the clutch has added to the probe's position, body frame, m.
     offset_in_body_m: DVec3,
-    /// The last accepted pose: the hand's position in the axes of the body (not scaled), and the probe.
-    last: Option<(DVec3, DVec3)>,
+    /// The probe at the last accepted pose, body frame, m.
+    probe_in_body: Option<DVec3>,
     /// Stamp of the last pose, accepted or not.
     stamp_ns: Option<i64>,
     grasp_commanded: bool,
@@ -111,7 +111,7 @@ impl DeviceSession {
             interaction: Interaction::new(),
             motion_scale,
             offset_in_body_m: DVec3::ZERO,
-            last: None,
+            probe_in_body: None,
             stamp_ns: None,
             grasp_commanded: false,
             gripper_closed: false,
@@ -143,19 +143,16 @@ impl DeviceSession {
             return Err(Rejection::StampBackwards(StepError::StampWentBack { previous_ns, stamp_ns }));
         }
 
-        let hand = body_from_frame.rotate(frame_from_hand.translation);
-        let unclutched = body_from_frame.translation + hand * self.motion_scale;
-        if let (true, Some((_, frozen))) = (self.clutched, self.last) {
+        let unclutched = body_from_frame.transform_point(frame_from_hand.translation * self.motion_scale);
+        let frozen = self.probe_in_body.filter(|_| self.clutched);
+        if let Some(frozen) = frozen {
             self.offset_in_body_m = frozen - unclutched;
         }
-        let probe_in_body = match (self.clutched, self.last) {
-            (true, Some((_, frozen))) => frozen,
-            _ => unclutched + self.offset_in_body_m,
-        };
+        let probe_in_body = frozen.unwrap_or(unclutched + self.offset_in_body_m);
         let grasp = self.grasp_commanded || self.gripper_closed;
         let step = self.interaction.step(body, tissue, pose.stamp_ns, probe_in_body, grasp);
         let step = step.map_err(Rejection::OutOfReach)?;
-        self.last = Some((hand, probe_in_body));
+        self.probe_in_body = Some(probe_in_body);
 
         let frame_from_body = body_from_frame.inverse();
         Ok(Answer {
@@ -196,15 +193,6 @@ impl DeviceSession {
     /// The clutch is held. Counts from the next pose on.
     pub fn set_clutched(&mut self, clutched: bool) {
         self.clutched = clutched;
-    }
-
-    /// Another motion scale, finite and > 0, from the next pose on. The probe stays where it is, so the force does not
-    /// jump.
-    pub fn set_motion_scale(&mut self, motion_scale: f64) {
-        if let Some((hand, _)) = self.last {
-            self.offset_in_body_m += hand * (self.motion_scale - motion_scale);
-        }
-        self.motion_scale = motion_scale;
     }
 
     /// Motion of the probe for each metre of the hand.

@@ -103,19 +103,6 @@ fn the_motion_scale_stretches_the_hands_way_and_not_the_force() {
 }
 
 #[test]
-fn another_motion_scale_moves_neither_probe_nor_force() {
-    let (body, tissue) = (a_block(), tissue());
-    let mut device = DeviceSession::new(1.0);
-    let hand = pressed(&tissue, 0.003);
-    let before = device.answer(&body, &tissue, &hand_at(0, hand, Pose::IDENTITY)).unwrap();
-    device.set_motion_scale(0.5);
-    let after = device.answer(&body, &tissue, &hand_at(1, hand, Pose::IDENTITY)).unwrap();
-    assert!(after.probe_in_body.abs_diff_eq(before.probe_in_body, 1e-12));
-    let deeper = device.answer(&body, &tissue, &hand_at(2, hand - DVec3::Z * 0.002, Pose::IDENTITY)).unwrap();
-    assert!((deeper.step.depth_m - 0.004).abs() < 1e-12, "half of the hand's 2 mm");
-}
-
-#[test]
 fn the_clutch_freezes_probe_and_force_and_the_motion_goes_on_from_there() {
     let (body, tissue) = (a_block(), tissue());
     let mut device = DeviceSession::new(1.0);
