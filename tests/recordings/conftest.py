@@ -1,13 +1,17 @@
-"""Runs the examples of the crate `recording`, which write and print recordings."""
+"""Programs and peers of the recording tests: the examples of the crate `recording`, nodes, and an rclpy node."""
 
 import json
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+TARGET = Path(os.environ.get("CARGO_TARGET_DIR", REPOSITORY / "target"))
+# The other end of nodes under test is the same for every test of a graph.
+sys.path.insert(0, str(REPOSITORY / "tests" / "graph"))
 
 
 @pytest.fixture(scope="session")
@@ -16,10 +20,9 @@ def example():
     subprocess.run(
         ["cargo", "build", "--locked", "--quiet", "-p", "recording", "--examples"], cwd=REPOSITORY, check=True
     )
-    target = Path(os.environ.get("CARGO_TARGET_DIR", REPOSITORY / "target"))
 
     def run(name, *arguments):
-        command = [target / "debug" / "examples" / name, *map(str, arguments)]
+        command = [TARGET / "debug" / "examples" / name, *map(str, arguments)]
         return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
     return run
@@ -49,3 +52,40 @@ def fixture_recording(example, tmp_path_factory):
     path = tmp_path_factory.mktemp("recordings") / "fixture"
     example("write_fixture", path, 1500)
     return path
+
+
+@pytest.fixture(scope="module")
+def ros():
+    """rclpy in a domain of its own."""
+    import peer
+    import rclpy
+
+    peer.isolate()
+    peer.PROGRAMS = TARGET / "release"
+    rclpy.init(args=[])
+    yield
+    rclpy.shutdown()
+
+
+@pytest.fixture
+def programs(ros):
+    """Ends every program given to it, whatever becomes of the test."""
+    started = []
+
+    def keep(program):
+        started.append(program)
+        return program
+
+    yield keep
+    for program in started:
+        program.kill()
+
+
+@pytest.fixture
+def remote(ros):
+    """The other end: an rclpy node with the helpers of `peer.Peer`."""
+    import peer
+
+    made = peer.Peer()
+    yield made
+    made.close()

@@ -1,2 +1,21 @@
-//! Placeholder.
-fn main() {}
+//! The node `bag_replay`: writes the session's topics into a recording, or plays one.
+
+mod graph;
+mod names;
+mod play;
+mod record;
+mod schedule;
+mod settings;
+mod storage;
+mod subscription;
+
+use std::process::ExitCode;
+
+use settings::Settings;
+
+fn main() -> ExitCode {
+    node_kit::run(node_kit::Node::BagReplay, |kit| match settings::read(kit)? {
+        Settings::Record(settings) => record::run(kit, &settings),
+        Settings::Play(settings) => play::run(kit, &settings),
+    })
+}

@@ -1,0 +1,153 @@
+//! The thread that writes: everything comes to it through one queue and is stored in that order.
+//!
+//! The queue is bounded and a full one holds up the receiving side, where rcl keeps another second of messages: a disk
+//! that pauses loses nothing, and one that stops for good does not eat the memory.
+
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use anyhow::{Context, anyhow};
+use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, TrySendError, bounded};
+use recording::{Topic, TopicId, Writer, Written};
+
+/// Several seconds of a session with two devices.
+const QUEUE_MESSAGES: usize = 1 << 16;
+/// Without new messages what was received goes to the file after this long.
+const IDLE: Duration = Duration::from_millis(250);
+
+enum Job {
+    /// The next topic; they are numbered in the order in which they come.
+    Topic(Box<Topic>),
+    Message {
+        topic: usize,
+        log_time_ns: u64,
+        data: Vec<u8>,
+    },
+}
+
+/// The receiving side's end of the queue.
+pub(crate) struct Storage {
+    jobs: Sender<Job>,
+    thread: JoinHandle<anyhow::Result<Written>>,
+    topics: usize,
+    messages: u64,
+    held_up: u64,
+}
+
+impl Storage {
+    /// Starts the thread.
+    pub(crate) fn start(writer: Writer) -> anyhow::Result<Self> {
+        let (jobs, queue) = bounded(QUEUE_MESSAGES);
+        let thread =
+            std::thread::Builder::new().name("bag_writer".to_owned()).spawn(move || write(writer, &queue));
+        Ok(Self { jobs, thread: thread.context("the writing thread")?, topics: 0, messages: 0, held_up: 0 })
+    }
+
+    /// Adds a topic and gives its number.
+    pub(crate) fn add_topic(&mut self, topic: Topic) -> usize {
+        self.send(Job::Topic(Box::new(topic)));
+        self.topics += 1;
+        self.topics - 1
+    }
+
+    /// Stores a message of a topic; waits while the queue is full.
+    pub(crate) fn store(&mut self, topic: usize, log_time_ns: u64, data: Vec<u8>) {
+        self.send(Job::Message { topic, log_time_ns, data });
+        self.messages += 1;
+    }
+
+    /// Messages given to the thread so far.
+    pub(crate) fn messages(&self) -> u64 {
+        self.messages
+    }
+
+    /// Messages that wait to be written.
+    pub(crate) fn queued(&self) -> usize {
+        self.jobs.len()
+    }
+
+    /// How often the queue was full.
+    pub(crate) fn held_up(&self) -> u64 {
+        self.held_up
+    }
+
+    /// Whether the thread ended early, which it does only when writing fails; [`Storage::finish`] tells why.
+    pub(crate) fn has_failed(&self) -> bool {
+        self.thread.is_finished()
+    }
+
+    /// Lets the thread write what is queued and close the recording.
+    pub(crate) fn finish(self) -> anyhow::Result<Written> {
+        drop(self.jobs);
+        self.thread.join().map_err(|_| anyhow!("the writing thread panicked"))?
+    }
+
+    /// A thread that is gone is noticed by `has_failed`; what is sent to it goes nowhere.
+    fn send(&mut self, job: Job) {
+        if let Err(TrySendError::Full(job)) = self.jobs.try_send(job) {
+            self.held_up += 1;
+            let _ = self.jobs.send(job);
+        }
+    }
+}
+
+fn write(mut writer: Writer, queue: &Receiver<Job>) -> anyhow::Result<Written> {
+    let mut topics: Vec<TopicId> = Vec::new();
+    loop {
+        match queue.recv_timeout(IDLE) {
+            Ok(Job::Topic(topic)) => topics.push(writer.add_topic(*topic)?),
+            Ok(Job::Message { topic, log_time_ns, data }) => {
+                let topic = topics.get(topic).ok_or_else(|| anyhow!("a message came before its topic"))?;
+                writer.write(*topic, log_time_ns, &data)?;
+            }
+            Err(RecvTimeoutError::Timeout) => writer.flush()?,
+            Err(RecvTimeoutError::Disconnected) => return Ok(writer.close()?),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use recording::{MessageDefinition, Recording};
+
+    fn topic(name: &str) -> Topic {
+        Topic {
+            name: name.to_owned(),
+            type_name: "std_msgs/msg/Bool".to_owned(),
+            serialization_format: "cdr".to_owned(),
+            offered_qos: Vec::new(),
+            definition: MessageDefinition::default(),
+        }
+    }
+
+    #[test]
+    fn everything_is_stored_in_order_although_the_queue_overflows() {
+        let directory = std::env::temp_dir().join(format!("bag_replay_storage_{}", std::process::id()));
+        let mut storage = Storage::start(Writer::create(&directory, "").unwrap()).unwrap();
+        let number = storage.add_topic(topic("/a"));
+        let count = 2 * QUEUE_MESSAGES as u64 + 10;
+        for i in 0..count {
+            storage.store(number, i, i.to_le_bytes().to_vec());
+        }
+        assert_eq!(storage.messages(), count);
+        let written = storage.finish().unwrap();
+        let recording = Recording::open(&directory).unwrap();
+        let data: Vec<_> = recording.messages().map(|message| message.unwrap().data).collect();
+        std::fs::remove_dir_all(&directory).unwrap();
+        assert_eq!(written.message_counts, [("/a".to_owned(), count)]);
+        assert!(data.iter().zip(0..count).all(|(data, i)| *data == i.to_le_bytes()));
+        assert_eq!(data.len() as u64, count);
+    }
+
+    #[test]
+    fn a_failure_to_write_is_noticed_and_told() {
+        let directory = std::env::temp_dir().join(format!("bag_replay_failure_{}", std::process::id()));
+        let mut storage = Storage::start(Writer::create(&directory, "").unwrap()).unwrap();
+        storage.add_topic(topic("/a"));
+        storage.add_topic(topic("/a"));
+        let error = storage.finish().unwrap_err().to_string();
+        std::fs::remove_dir_all(&directory).unwrap();
+        assert!(error.contains("/a"), "{error}");
+    }
+}

@@ -1,0 +1,152 @@
+"""The recording node over DDS: it loses nothing, adapts to its publishers, and leaves a readable file however it ends."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import peer
+import pytest
+from geometry_msgs.msg import PoseStamped
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rosbags.highlevel import AnyReader
+from rosbags.interfaces import QosDurability, QosReliability
+from sensor_msgs.msg import Joy
+from shape_msgs.msg import Mesh
+from std_msgs.msg import String
+
+BEST_EFFORT = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+def recorder(folder, namespace="", **values):
+    values = {"recording.directory": str(folder), "recording.name": "session"} | {
+        name.replace("__", "."): value for name, value in values.items()
+    }
+    return peer.Program(folder, "bag_replay", values, namespace).wait_ready()
+
+
+def pose(number):
+    message = PoseStamped()
+    message.header.stamp.nanosec = number
+    return message
+
+
+def read(path):
+    """Messages of each topic, decoded, in their order."""
+    found = {}
+    with AnyReader([path]) as reader:
+        for connection, _, data in reader.messages():
+            found.setdefault(connection.topic, []).append(reader.deserialize(data, connection.msgtype))
+    return found
+
+
+def numbers(messages):
+    return [message.header.stamp.nanosec for message in messages]
+
+
+def test_no_message_is_lost_at_1_khz_on_six_topics_and_surfaces(tmp_path, programs):
+    topics = ["measured_cp", "measured_cv", "measured_cf", "servo_cf", "contact_state", "contact_law_copy",
+              "surface_displacement"]  # fmt: skip
+    program = programs(recorder(tmp_path, recording__topics=topics))
+    publisher = subprocess.Popen(
+        [sys.executable, Path(__file__).with_name("numbered_publisher.py"), "20000", *topics],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        sent = json.loads(publisher.stdout.readline())["sent"]
+        assert program.interrupt()[0] == 0, program.log()
+    finally:
+        publisher.communicate("end\n")
+    assert sent["measured_cp"] == 20_000 and sent["surface_displacement"] == 1200
+    report = program.closing_report()
+    assert report["topics"] == {f"/{topic}": count for topic, count in sent.items()}
+    found = read(tmp_path / "session")
+    for topic, count in sent.items():
+        assert numbers(found[f"/{topic}"]) == list(range(count)), topic
+
+
+def test_publishers_of_any_quality_of_service_are_recorded_with_it(tmp_path, programs, remote):
+    latched = remote.node.create_publisher(Mesh, "body_mesh", peer.latched(1))
+    latched.publish(Mesh())
+    words_topic = "a/topic/of/nobody_we_know"
+    program = programs(recorder(tmp_path, recording__topics=["measured_cp", "clutch", "body_mesh", words_topic]))
+    # Reliable and latched is what the recorder asks for on these two, until it sees that less is offered.
+    weak_pose = remote.node.create_publisher(PoseStamped, "measured_cp", BEST_EFFORT)
+    weak_clutch = remote.node.create_publisher(Joy, "clutch", peer.reliable(10))
+    words = remote.node.create_publisher(String, words_topic, peer.reliable(10))
+    publishers = [weak_pose, weak_clutch, words, latched]
+    remote.wait_for(lambda: all(publisher.get_subscription_count() for publisher in publishers), "the recorder")
+    for number in range(10):
+        weak_pose.publish(pose(number))
+        weak_clutch.publish(Joy(buttons=[number]))
+        words.publish(String(data=str(number)))
+        time.sleep(0.01)
+    remote.spin(0.3)
+    assert program.interrupt()[0] == 0, program.log()
+    found = read(tmp_path / "session")
+    assert len(found["/body_mesh"]) == 1
+    assert numbers(found["/measured_cp"]) == list(range(10))
+    assert [list(joy.buttons) for joy in found["/clutch"]] == [[number] for number in range(10)]
+    assert [word.data for word in found[f"/{words_topic}"]] == [str(number) for number in range(10)]
+    with AnyReader([tmp_path / "session"]) as reader:
+        qos = {connection.topic: connection.ext.offered_qos_profiles for connection in reader.connections}
+    assert qos["/measured_cp"][0].reliability == QosReliability.BEST_EFFORT
+    assert qos["/clutch"][0].durability == QosDurability.VOLATILE
+    assert qos["/body_mesh"][0].durability == QosDurability.TRANSIENT_LOCAL
+
+
+def test_by_default_the_topics_of_the_namespace_and_its_devices_are_recorded(tmp_path, programs, remote):
+    program = programs(recorder(tmp_path, namespace="or", devices=["left", "right"]))
+    named = ["/or/left/measured_cp", "/or/right/measured_cp"]
+    publishers = [remote.node.create_publisher(PoseStamped, topic, peer.reliable(10)) for topic in [*named, "/measured_cp"]]
+    remote.wait_for(lambda: all(publisher.get_subscription_count() for publisher in publishers[:2]), "the recorder")
+    for publisher in publishers:
+        publisher.publish(pose(1))
+    remote.spin(0.5)
+    assert program.interrupt()[0] == 0, program.log()
+    topics = program.closing_report()["topics"]
+    assert {topic: topics.get(topic) for topic in named} == dict.fromkeys(named, 1)
+    assert "/measured_cp" not in topics
+    # The recorder's own health is part of the session.
+    assert topics["/diagnostics"] >= 1
+
+
+def test_a_killed_recorder_leaves_what_came_up_to_a_second_before(tmp_path, programs, remote, example):
+    program = programs(recorder(tmp_path, recording__topics=["measured_cp"]))
+    publisher = remote.node.create_publisher(PoseStamped, "measured_cp", peer.reliable(1000))
+    remote.wait_for(lambda: publisher.get_subscription_count(), "the recorder")
+    for number in range(500):
+        publisher.publish(pose(number))
+        time.sleep(0.001)
+    remote.spin(2.0)
+    program.process.send_signal(signal.SIGKILL)
+    program.process.wait()
+    lines = [json.loads(line) for line in example("print_recording", tmp_path / "session").splitlines()]
+    assert any("stopped hard" in line.get("damage", "") for line in lines)
+    found = [line["value"]["header"]["stamp"]["nanosec"] for line in lines if "on" in line]
+    assert found == list(range(500))
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"recording.name": "../elsewhere"}, ["recording.name", "../elsewhere", "letters"]),
+        ({"recording.name": "there_already"}, ["there_already", "exists", "not overwritten"]),
+        ({"recording.directory": "/proc/nothing"}, ["/proc/nothing"]),
+        ({"bag_replay.mode": "rewind"}, ["bag_replay.mode", "rewind", "record", "play"]),
+    ],
+)
+def test_what_cannot_be_recorded_is_one_error_and_leaves_nothing_behind(tmp_path, programs, values, words):
+    (tmp_path / "there_already").mkdir()
+    values = {"recording.directory": str(tmp_path)} | values
+    program = programs(peer.Program(tmp_path / "logs", "bag_replay", values))
+    assert program.process.wait(peer.TIMEOUT_S) == 1
+    errors = [line for line in program.log().splitlines() if "ERROR" in line]
+    assert len(errors) == 1, program.log()
+    for word in words:
+        assert word in errors[0]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["logs", "there_already"]
