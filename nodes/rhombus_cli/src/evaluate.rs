@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use anyhow::Context;
 use clap::{Args, ValueHint};
 use rhombus_chain::{ContactLaw, ContactShape, SurfaceParameters};
-use scene::{Reader, Scene};
 use serde::Serialize;
 
+use crate::assignments::Assignments;
 use crate::output;
 
 /// Force, stiffness and surface shape of a contact law at one depth, or at the depth that one force needs.
@@ -20,6 +20,8 @@ pub(crate) struct Evaluate {
     /// ROS 2 parameter file with chains.*
     #[arg(value_name = "PARAMS.yaml", value_hint = ValueHint::FilePath)]
     parameters: PathBuf,
+    #[command(flatten)]
+    assignments: Assignments,
     #[command(flatten)]
     at: At,
     /// Displacement of the surface at these distances: arc length from the contact less probe.contact_radius, m
@@ -80,7 +82,7 @@ struct ProfilePoint {
 
 impl Evaluate {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let scene = Scene::from_file(&self.parameters, Reader::Everything)?;
+        let scene = self.assignments.scene(&self.parameters)?;
         let law = scene.law()?;
         let depth_m = match self.at {
             At { force: Some(force_n), .. } => {

@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
-use scene::{Plan, Reader, Scene, TopicState};
+use scene::{Plan, TopicState};
 use serde::Serialize;
 
+use crate::assignments::Assignments;
 use crate::output;
 
 /// What a scene builds and what it leaves out: model, surface, device, viewer, topics, threads, memory
@@ -17,6 +18,8 @@ pub(crate) struct Explain {
     /// ROS 2 parameter file
     #[arg(value_name = "PARAMS.yaml", value_hint = ValueHint::FilePath)]
     parameters: PathBuf,
+    #[command(flatten)]
+    assignments: Assignments,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -67,7 +70,7 @@ struct Threads {
 
 impl Explain {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let plan = Scene::from_file(&self.parameters, Reader::Everything)?.plan()?;
+        let plan = self.assignments.scene(&self.parameters)?.plan()?;
         let explanation = Explanation::new(self.parameters, plan);
         for warning in &explanation.warnings {
             eprintln!("rhombus: warning: {warning}");

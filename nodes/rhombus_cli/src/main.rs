@@ -1,6 +1,7 @@
 //! `rhombus`: everything useful without ROS. Results go to stdout, errors to stderr; exit code 2 means the command
 //! line or an input was not accepted.
 
+mod assignments;
 mod evaluate;
 mod explain;
 mod mesh;

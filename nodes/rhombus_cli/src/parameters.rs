@@ -2,6 +2,7 @@
 
 use clap::Args;
 use scene::{DefaultValue, ParameterSpec, schema};
+use serde::Serialize;
 
 use crate::output;
 
@@ -11,10 +12,29 @@ pub(crate) struct Parameters {
     /// As the Markdown table of the README
     #[arg(long)]
     markdown: bool,
+    /// Print JSON
+    #[arg(long, conflicts_with = "markdown")]
+    json: bool,
+}
+
+/// One row; field names and their order are the JSON.
+#[derive(Serialize)]
+struct Row {
+    name: &'static str,
+    kind: &'static str,
+    unit: &'static str,
+    default: String,
+    accepted: String,
+    live: bool,
+    nodes: Vec<&'static str>,
+    help: &'static str,
 }
 
 impl Parameters {
     pub(crate) fn run(self) -> anyhow::Result<()> {
+        if self.json {
+            return output::json(&schema().map(row).collect::<Vec<_>>());
+        }
         let text = if self.markdown { markdown() } else { plain() };
         output::text(&text)
     }
@@ -30,6 +50,19 @@ fn default_in_words(spec: &ParameterSpec) -> String {
 
 fn nodes(spec: &ParameterSpec) -> String {
     spec.owners.iter().map(|node| node.name()).collect::<Vec<_>>().join(", ")
+}
+
+fn row(spec: &ParameterSpec) -> Row {
+    Row {
+        name: spec.name,
+        kind: spec.kind.in_words(),
+        unit: spec.unit,
+        default: default_in_words(spec),
+        accepted: spec.range(),
+        live: spec.live,
+        nodes: spec.owners.iter().map(|node| node.name()).collect(),
+        help: spec.help,
+    }
 }
 
 fn markdown() -> String {

@@ -141,3 +141,21 @@ fn help_and_version_are_no_errors_and_no_command_is_one() {
     assert!(folder.success(&["--version"]).starts_with("rhombus "));
     assert!(folder.refusal(&[]).contains("Usage: rhombus"));
 }
+
+#[test]
+fn a_parameter_on_the_command_line_takes_the_place_of_the_files() {
+    let folder = Folder::new().with("scene.yaml", PAPER);
+    let text = folder.success(&["explain", "scene.yaml", "--set", "body.mesh=block", "--set", "surface.rate=0"]);
+    assert!(text.contains("block, generated"), "{text}");
+    let law = folder.json(&["evaluate", "scene.yaml", "--depth", "0.001", "--json", "--set", "chains.units=[3]"]);
+    assert_ne!(law, folder.json(&["evaluate", "scene.yaml", "--depth", "0.001", "--json"]));
+    for (assignment, said) in [
+        ("body.mesh", "KEY=VALUE"),
+        ("body.mash=block", "body.mesh"),
+        ("surface.cutoff=2.0", "2.0"),
+        ("surface.cutoff=\"x\"", "number"),
+    ] {
+        let refusal = folder.refusal(&["explain", "scene.yaml", "--set", assignment]);
+        assert!(refusal.contains(assignment) && refusal.contains(said), "{refusal}");
+    }
+}

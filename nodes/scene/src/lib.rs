@@ -28,6 +28,7 @@
 //! # Ok::<(), scene::SceneError>(())
 //! ```
 
+mod assignment;
 mod body;
 mod chains;
 mod error;

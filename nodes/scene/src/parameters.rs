@@ -69,6 +69,12 @@ impl Parameters {
         Ok(())
     }
 
+    /// Takes over what was given there, without its places in that text.
+    pub(crate) fn take_given(&mut self, other: Parameters) {
+        let given = other.entries.into_iter().filter(|(_, entry)| entry.given);
+        self.entries.extend(given.map(|(name, entry)| (name, Entry { node: None, ..entry })));
+    }
+
     /// Where the values come from.
     pub fn origin(&self) -> &Origin {
         &self.origin

@@ -1,0 +1,21 @@
+//! `--set KEY=VALUE`: what a command line changes of a parameter file.
+
+use std::path::Path;
+
+use clap::Args;
+use scene::{Parameters, Reader, Scene, SceneError};
+
+#[derive(Args)]
+pub(crate) struct Assignments {
+    /// A parameter in place of the file's, with a value as it would stand in the file; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    assignments: Vec<String>,
+}
+
+impl Assignments {
+    /// The scene of `file`, as changed.
+    pub(crate) fn scene(&self, file: &Path) -> Result<Scene, SceneError> {
+        let parameters = Parameters::from_file(file, Reader::Everything)?;
+        Scene::from_parameters(parameters.with_assignments(&self.assignments)?)
+    }
+}
