@@ -145,9 +145,11 @@ fn help_and_version_are_no_errors_and_no_command_is_one() {
 #[test]
 fn a_parameter_on_the_command_line_takes_the_place_of_the_files() {
     let folder = Folder::new().with("scene.yaml", PAPER);
-    let text = folder.success(&["explain", "scene.yaml", "--set", "body.mesh=block", "--set", "surface.rate=0"]);
+    let text =
+        folder.success(&["explain", "scene.yaml", "--set", "body.mesh=block", "--set", "surface.rate=0"]);
     assert!(text.contains("block, generated"), "{text}");
-    let law = folder.json(&["evaluate", "scene.yaml", "--depth", "0.001", "--json", "--set", "chains.units=[3]"]);
+    let law =
+        folder.json(&["evaluate", "scene.yaml", "--depth", "0.001", "--json", "--set", "chains.units=[3]"]);
     assert_ne!(law, folder.json(&["evaluate", "scene.yaml", "--depth", "0.001", "--json"]));
     for (assignment, said) in [
         ("body.mesh", "KEY=VALUE"),

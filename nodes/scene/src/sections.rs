@@ -45,7 +45,11 @@ impl Parameters {
         Parameters::from_text(&text, Origin::file(path, &text), reader)
     }
 
-    pub(crate) fn from_text(text: &str, origin: Origin, reader: Reader<'_>) -> Result<Parameters, SceneError> {
+    pub(crate) fn from_text(
+        text: &str,
+        origin: Origin,
+        reader: Reader<'_>,
+    ) -> Result<Parameters, SceneError> {
         let tree = yaml::parse(text).map_err(|error| SceneError {
             file: origin.name().to_owned(),
             line: error.line,
