@@ -218,6 +218,22 @@ mod tests {
     }
 
     #[test]
+    fn an_unloaded_hand_keeps_up_with_a_target_that_moves_evenly() {
+        // In steady motion k (p - x) + c (w - v) = 0 with v = w: no lag.
+        let speed = DVec3::new(0.1, 0.0, 0.0);
+        let mut hand = Hand::new(HAND, 1e-3, DVec3::ZERO).unwrap();
+        for tick in 0..1000 {
+            let start_s = f64::from(tick) * 1e-3;
+            hand.advance(DVec3::ZERO, &WORKSPACE, |since_s| Target {
+                velocity_m_per_s: speed,
+                ..still(speed * (start_s + since_s))
+            });
+        }
+        assert!((hand.position() - speed).length() < 1e-7, "{}", hand.position());
+        assert!((hand.velocity() - speed).length() < 1e-6);
+    }
+
+    #[test]
     fn the_handle_stops_at_the_edge_of_the_workspace() {
         let mut hand = Hand::new(HAND, 1e-3, DVec3::ZERO).unwrap();
         for _ in 0..3000 {
