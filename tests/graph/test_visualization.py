@@ -3,20 +3,17 @@
 The real executable stands between a peer that speaks as device and model do and a peer that reads as RViz does.
 """
 
-import json
 import math
-import os
-import signal
 import struct
-import subprocess
 import time
 import zlib
 from pathlib import Path
 
 import numpy
+import peer
 import pytest
 import rclpy
-from diagnostic_msgs.msg import DiagnosticArray
+import yaml
 from geometry_msgs.msg import Point, PoseStamped, WrenchStamped
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
@@ -26,113 +23,79 @@ from shape_msgs.msg import Mesh, MeshTriangle
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
-EXECUTABLE = Path(__file__).resolve().parents[2] / "target" / "release" / "visualization"
-TIMEOUT_S = 20.0
-LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL, reliability=ReliabilityPolicy.RELIABLE)
+REPOSITORY = Path(__file__).resolve().parents[2]
+LATCHED = peer.latched(10)
 
 # One chain, as in the model's second golden value, pressed by 6 mm.
 ROD_LENGTH_M, ANGLE_RAD, RATIO, UNITS = 0.01, math.pi / 6, 0.8, 12
 DEPTH_M, GOLDEN_DL_1_M = 0.006, -0.0012885483697159
 CHAIN = {
-    "chains__rod_length": f"[{ROD_LENGTH_M}]",
-    "chains__angle": f"[{ANGLE_RAD}]",
-    "chains__ratio": f"[{RATIO}]",
-    "chains__units": f"[{UNITS}]",
-    "chains__normal_stiffness": "[500.0]",
-    "chains__tangential_stiffness": "[100.0]",
-    "chains__tangential_growth": "[10.0]",
+    "chains.rod_length": [ROD_LENGTH_M],
+    "chains.angle": [ANGLE_RAD],
+    "chains.ratio": [RATIO],
+    "chains.units": [UNITS],
+    "chains.normal_stiffness": [500.0],
+    "chains.tangential_stiffness": [100.0],
+    "chains.tangential_growth": [10.0],
 }
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="module", autouse=True)
 def ros():
-    # A domain of its own: whatever else runs on this machine is not heard.
-    os.environ["ROS_DOMAIN_ID"] = str(1 + os.getpid() % 100)
-    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    peer.isolate()
     rclpy.init(args=[])
     yield
     rclpy.shutdown()
 
 
-class Session:
+class Session(peer.Peer):
     """The node's process, and the peers around it in one rclpy node."""
 
-    def __init__(self, namespace, folder, parameters):
+    def __init__(self, folder, namespace, values):
+        super().__init__(namespace)
         self.namespace = namespace
-        self.prefix = f"/{namespace}" if namespace else ""
-        self.log_path = folder / "visualization.log"
-        command = [str(EXECUTABLE), "--ros-args", "-r", f"__ns:=/{namespace}"]
-        for name, value in parameters.items():
-            command += ["-p", f"{name}:={value}"]
-        self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=self.log_path.open("wb"))
-        self.node = rclpy.create_node("peer", namespace=namespace)
-        self.publishers = {}
-        self.statuses = []
+        self.program = peer.Program(folder, "visualization", values, namespace)
         self.static_transforms = {}
-        self.transforms = {}
-        self.node.create_subscription(DiagnosticArray, "/diagnostics", self.hear_diagnostics, 10)
         self.node.create_subscription(TFMessage, "/tf_static", self.hear_static, LATCHED)
-        self.wait_for(lambda: "ready:" in self.log(), "the node says ready")
-
-    def log(self):
-        return self.log_path.read_text(errors="replace")
-
-    def spin(self, seconds):
-        end = time.monotonic() + seconds
-        while (left := end - time.monotonic()) > 0:
-            rclpy.spin_once(self.node, timeout_sec=left)
-
-    def wait_for(self, condition, what, meanwhile=lambda: None):
-        end = time.monotonic() + TIMEOUT_S
-        while not condition():
-            assert self.process.poll() is None, self.log()
-            assert time.monotonic() < end, f"not within {TIMEOUT_S:.0f} s: {what}\n{self.log()}"
-            meanwhile()
-            rclpy.spin_once(self.node, timeout_sec=0.02)
-
-    def publish(self, topic, message, qos=10):
-        if topic not in self.publishers:
-            self.publishers[topic] = self.node.create_publisher(type(message), topic, qos)
-            self.wait_for(lambda: self.publishers[topic].get_subscription_count() > 0, f"somebody reads {topic}")
-        self.publishers[topic].publish(message)
-
-    def hear_diagnostics(self, message):
-        self.statuses += [status for status in message.status if status.name.startswith(f"{self.prefix}/visualization:")]
+        self.program.wait_ready()
 
     def hear_static(self, message):
         self.static_transforms.update({each.child_frame_id: each for each in message.transforms})
 
+    def publish(self, topic, message, qos=10):
+        super().publish(message, topic, qos)
+
+    def wait_for(self, condition, what, meanwhile=lambda: None):
+        def met():
+            assert self.program.process.poll() is None, self.program.log()
+            meanwhile()
+            return condition()
+
+        super().wait_for(met, what)
+
+    def reports(self):
+        """What diagnostics said so far: level, summary, values."""
+        return self.statuses.get(f"/{self.namespace}/visualization: markers", [])
+
     def value(self, key):
         """A number from the newest diagnostics."""
-        newest = self.statuses[-1].values if self.statuses else []
-        return next((float(each.value) for each in newest if each.key == key), None)
+        return float(self.reports()[-1][2][key]) if self.reports() else None
 
     def fresh_value(self, key):
         """The same, from diagnostics made after this call."""
-        before = len(self.statuses)
-        self.wait_for(lambda: len(self.statuses) > before + 1, "new diagnostics")
-        return self.value(key)
+        return float(self.new_status(f"/{self.namespace}/visualization: markers")[2][key])
 
     def set(self, name, value):
-        client = self.node.create_client(SetParameters, f"{self.prefix}/visualization/set_parameters")
-        self.wait_for(client.service_is_ready, "the parameter service")
         if isinstance(value, bool):
             value = ParameterValue(type=ParameterType.PARAMETER_BOOL, bool_value=value)
         else:
             value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
-        future = client.call_async(SetParameters.Request(parameters=[Parameter(name=name, value=value)]))
-        self.wait_for(future.done, f"{name} is answered")
-        return future.result().results[0]
-
-    def interrupt(self):
-        self.process.send_signal(signal.SIGINT)
-        return self.process.wait(TIMEOUT_S)
+        request = SetParameters.Request(parameters=[Parameter(name=name, value=value)])
+        return self.call(SetParameters, f"/{self.namespace}/visualization/set_parameters", request).results[0]
 
     def close(self):
-        if self.process.poll() is None:
-            self.process.kill()
-            self.process.wait()
-        self.node.destroy_node()
+        self.program.kill()
+        super().close()
 
 
 class Viewer:
@@ -170,12 +133,12 @@ class Viewer:
 
 
 @pytest.fixture
-def start(ros, tmp_path, request):
+def start(tmp_path, request):
     sessions = []
 
-    def started(**parameters):
-        namespace = f"{request.node.name.split('[')[0][-40:]}_{len(sessions)}"
-        sessions.append(Session(namespace, tmp_path, {k.replace("__", "."): v for k, v in parameters.items()}))
+    def started(values=None):
+        namespace = f"{request.node.name[-40:]}_{len(sessions)}"
+        sessions.append(Session(tmp_path, namespace, values or {"visualization.rate": 30.0}))
         return sessions[-1]
 
     yield started
@@ -248,6 +211,11 @@ def pose(frame_id="device_base"):
     return message
 
 
+def shifted(x=0.0, z=0.0):
+    """A pose parameter."""
+    return [x, 0.0, z, 0.0, 0.0, 0.0, 1.0]
+
+
 def press(session, device=""):
     """What device and model say while the probe presses."""
     topic = (device + "/{}").format if device else "{}".format
@@ -257,7 +225,7 @@ def press(session, device=""):
 
 
 def test_the_body_is_drawn_with_every_triangle_and_moves_with_its_displacement(start):
-    session = start(body__frame_id="organ")
+    session = start({"body.frame_id": "organ"})
     session.publish("body_mesh", mesh_message(VERTICES, TRIANGLES), LATCHED)
     viewer = Viewer(session)
     session.wait_for(lambda: "body" in viewer.names(), "the body")
@@ -280,7 +248,7 @@ def test_the_body_is_drawn_with_every_triangle_and_moves_with_its_displacement(s
 
 
 def test_a_contact_is_drawn_and_deleted_when_the_probe_leaves(start):
-    session = start(probe__radius=0.005, visualization__force_scale=0.1, **CHAIN)
+    session = start({"probe.radius": 0.005, "visualization.force_scale": 0.1, **CHAIN})
     viewer = Viewer(session)
     complete = {"probe", "proxy", "force", "chains"}
     session.wait_for(lambda: viewer.names() == complete, "the contact", lambda: press(session))
@@ -300,25 +268,25 @@ def test_a_contact_is_drawn_and_deleted_when_the_probe_leaves(start):
 
 
 def test_the_chains_are_drawn_as_the_model_stretches_them(start):
-    session = start(**CHAIN)
+    session = start(CHAIN)
     viewer = Viewer(session)
     session.wait_for(lambda: "chains" in viewer.names(), "the chains", lambda: press(session))
-    rods, springs, masses = (viewer.shown["chains", i] for i in range(3))
-    assert [each.type for each in (rods, springs, masses)] == [Marker.LINE_LIST, Marker.LINE_LIST, Marker.SPHERE_LIST]
-    assert points(rods)[0] == pytest.approx([0, 0, -DEPTH_M], abs=1e-15), "the contact point moves by the depth"
-    # Four rods for each unit, one unit after the other, one row after the other.
-    ends = points(rods).reshape(-1, 4, 2, 3)
-    lengths = numpy.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
-    row = numpy.flatnonzero(numpy.isclose(lengths[:, 0], ROD_LENGTH_M))
-    units = int(row[1] - row[0])
-    assert len(ends) == 4 * units and 8 <= units <= UNITS
-    for unit in range(units):
-        assert lengths[unit::units] == pytest.approx(ROD_LENGTH_M * RATIO**unit, abs=1e-12)
-    tips = ends[:units, 1, 1]
-    heights = -DEPTH_M - numpy.cumsum(GOLDEN_DL_1_M * RATIO ** numpy.arange(units))
-    assert tips[:, 2] == pytest.approx(heights, abs=1e-12), "tips are as high as the model's units"
+    kinds = [{marker.type for (name, i), marker in viewer.shown.items() if name == "chains" and i % 3 == part} for part in range(3)]
+    assert kinds == [{Marker.LINE_LIST}, {Marker.LINE_LIST}, {Marker.SPHERE_LIST}], "rods, springs, mass points"
+    # Four rods for each unit, from the tip at the contact around to it again. One marker for each class of sizes.
+    rods = [points(marker) for (name, i), marker in viewer.shown.items() if name == "chains" and i % 3 == 0]
+    units = numpy.concatenate(rods).reshape(-1, 4, 2, 3)
+    row = units[(abs(units[:, 1, 1, 1]) < 1e-12) & (units[:, 1, 1, 0] > 0)]
+    row = row[numpy.argsort(row[:, 1, 1, 0])]
+    assert 8 <= len(row) <= UNITS and len(units) == 4 * len(row), "four rows, one of them along x"
+    assert row[0, 0, 0] == pytest.approx([0, 0, -DEPTH_M], abs=1e-15), "the contact point moves by the depth"
+    lengths = numpy.linalg.norm(row[:, :, 1] - row[:, :, 0], axis=2)
+    for unit, four in enumerate(lengths):
+        assert four == pytest.approx(ROD_LENGTH_M * RATIO**unit, abs=1e-12)
+    heights = -DEPTH_M - numpy.cumsum(GOLDEN_DL_1_M * RATIO ** numpy.arange(len(row)))
+    assert row[:, 1, 1, 2] == pytest.approx(heights, abs=1e-12), "tips are as high as the model's units"
     angle = math.asin(math.sin(ANGLE_RAD) + GOLDEN_DL_1_M / (2 * ROD_LENGTH_M))
-    diagonal = numpy.linalg.norm(ends[0, 1, 1] - ends[0, 0, 0])
+    diagonal = numpy.linalg.norm(row[0, 1, 1] - row[0, 0, 0])
     assert diagonal == pytest.approx(2 * ROD_LENGTH_M * math.cos(angle), abs=1e-12)
 
     assert session.set("visualization.show_chains", False).successful
@@ -377,12 +345,12 @@ def test_nan_and_displacements_of_another_mesh_are_counted_and_not_drawn(start):
     bad_pose.pose.orientation.w = 0.5
     session.publish("measured_cp", bad_pose)
     session.wait_for(lambda: session.value("not_drawable") == 4, "a quaternion that is no rotation is counted")
-    assert any(status.level == b"\x01" for status in session.statuses), "diagnostics warn"
+    assert any(level == 1 for level, _, _ in session.reports()), "diagnostics warn"
 
     session.spin(1.5)
     assert viewer.names() == {"body"}
     assert numpy.array_equal(points(viewer.shown["body", 0]), good)
-    log = session.log()
+    log = session.program.log()
     assert "surface_displacement is not drawn" in log and "mesh 00000001" in log, log
 
 
@@ -398,7 +366,7 @@ def test_a_mesh_that_cannot_be_drawn_is_counted_and_the_next_one_is_drawn(start)
 
 
 def test_body_device_and_probe_have_their_transforms(start):
-    session = start(body__pose="[0.1,0.0,0.0,0.0,0.0,0.0,1.0]", device__scene_from_device="[0.0,0.0,0.3,0.0,0.0,0.0,1.0]")
+    session = start({"body.pose": shifted(x=0.1), "device.scene_from_device": shifted(z=0.3)})
     ns = session.namespace
     session.wait_for(lambda: len(session.static_transforms) >= 2, "static transforms")
     body, device = session.static_transforms[f"{ns}/body"], session.static_transforms[f"{ns}/device_base"]
@@ -415,9 +383,9 @@ def test_body_device_and_probe_have_their_transforms(start):
 
 
 def test_each_device_has_its_own_markers_and_frames(start):
-    session = start(devices="[left,right]", **CHAIN)
+    session = start({"devices": ["left", "right"], **CHAIN})
     viewer = Viewer(session)
-    both = {(name, i) for name in ("probe", "force", "proxy") for i in (0, 1)} | {("chains", i) for i in range(6)}
+    both = {(name, i) for name in ("probe", "force", "proxy") for i in (0, 1)} | {("chains", 0), ("chains", 12)}
 
     def press_both():
         press(session, "left")
@@ -455,6 +423,61 @@ def test_sigint_ends_the_node_with_a_report(start):
     session.publish("body_mesh", mesh_message(VERTICES, TRIANGLES), LATCHED)
     viewer = Viewer(session)
     session.wait_for(lambda: "body" in viewer.names(), "the body")
-    assert session.interrupt() == 0, session.log()
-    report = json.loads(session.log().split("closing report: ")[1].splitlines()[0])
-    assert report["markers"] >= 1 and report["not_drawn"] == 0
+    code, _ = session.program.interrupt()
+    report = session.program.closing_report()
+    assert code == 0 and report["markers"] >= 1 and report["not_drawn"] == 0
+
+
+def test_the_rviz_layout_names_only_what_a_session_publishes(tmp_path):
+    layout = yaml.safe_load((REPOSITORY / "config" / "session.rviz").read_text())["Visualization Manager"]
+    displays = {display["Class"].split("/")[1]: display for display in layout["Displays"]}
+    markers, wrench = displays["MarkerArray"], displays["Wrench"]
+    types = {"MarkerArray": "visualization_msgs/msg/MarkerArray", "Wrench": "geometry_msgs/msg/WrenchStamped"}
+
+    scene = (REPOSITORY / "config" / "liver.yaml").read_text()
+    programs = []
+    rviz = peer.Peer()
+    node = rviz.node
+    heard = {"frames": {}, "names": set(), "frame_ids": set()}
+
+    def hear_transforms(message):
+        heard["frames"].update({each.child_frame_id: each.header.frame_id for each in message.transforms})
+
+    def hear_markers(message):
+        added = [marker for marker in message.markers if marker.action == Marker.ADD]
+        heard["names"] |= {marker.ns for marker in added}
+        heard["frame_ids"] |= {marker.header.frame_id for marker in added}
+
+    def hear_wrench(message):
+        heard["frame_ids"].add(message.header.frame_id)
+
+    node.create_subscription(TFMessage, "/tf_static", hear_transforms, LATCHED)
+    node.create_subscription(TFMessage, "/tf", hear_transforms, 100)
+    node.create_subscription(MarkerArray, markers["Topic"]["Value"], hear_markers, qos_of(markers["Topic"]))
+    node.create_subscription(WrenchStamped, wrench["Topic"]["Value"], hear_wrench, qos_of(wrench["Topic"]))
+    try:
+        for name in ("deformation", "visualization", "haptic_device"):
+            programs.append(peer.Program(tmp_path, name, scene).wait_ready())
+        seen = lambda: heard["names"] == set(markers["Namespaces"]) and "probe" in heard["frames"]
+        rviz.wait_for(seen, "every namespace of the layout, and the probe's frame", 60)
+        for kind, display in displays.items():
+            if "Topic" in display:
+                publishers = node.get_publishers_info_by_topic(node.resolve_topic_name(display["Topic"]["Value"]))
+                assert [each.topic_type for each in publishers] == [types[kind]], kind
+        for frame in heard["frame_ids"] | {"probe"}:
+            while frame in heard["frames"]:
+                frame = heard["frames"][frame]
+            assert frame == layout["Global Options"]["Fixed Frame"]
+    finally:
+        for program in programs:
+            program.kill()
+        rviz.close()
+
+
+def qos_of(topic):
+    """What RViz asks for: a subscription that asks for more than is offered hears nothing."""
+    return QoSProfile(
+        depth=topic["Depth"],
+        reliability=ReliabilityPolicy[topic["Reliability Policy"].upper().replace(" ", "_")],
+        durability=DurabilityPolicy[topic["Durability Policy"].upper().replace(" ", "_")],
+    )
