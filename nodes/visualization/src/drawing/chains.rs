@@ -21,11 +21,17 @@ const MASS_POINTS: Colour = Colour::rgb(0.93, 0.93, 0.90);
 const NORMAL_SPRING: Colour = Colour::rgb(0.20, 0.62, 0.95);
 const TANGENTIAL_SPRING: Colour = Colour::rgb(0.35, 0.80, 0.40);
 
-/// Widths as shares of the longest rod.
+/// Widths as shares of a rod.
 const ROD_WIDTH: f64 = 0.07;
 const SPRING_WIDTH: f64 = 0.03;
 const MASS_POINT_DIAMETER: f64 = 0.2;
 const SPRING_TURNS: u32 = 3;
+
+/// A marker has one width, and the units of a chain shrink: units are drawn in this many classes, each half as wide as
+/// the one before.
+const SIZES: usize = 4;
+/// Markers of one size: rods, springs, mass points.
+const PARTS: usize = 3;
 
 /// Number of rows around a contact of `chains` parallel chains: every chain as often as every other, unless there are
 /// too many to draw.
@@ -37,8 +43,8 @@ pub(crate) fn rows(chains: usize) -> usize {
     }
 }
 
-/// The chains at a contact: rods, springs, mass points; nothing without a chain. `directions` are unit vectors along the surface, one for each
-/// row; neighbouring rows show different chains.
+/// The chains at a contact: rods, springs and mass points of each size; nothing without a chain. `directions` are unit
+/// vectors along the surface, one for each row; neighbouring rows show different chains.
 pub(crate) fn chains(
     device: i32,
     frame_id: &str,
@@ -51,34 +57,62 @@ pub(crate) fn chains(
     if count == 0 || shapes.is_empty() {
         return Vec::new();
     }
-    let mut rods = Strokes::default();
-    let mut springs = Strokes::default();
-    let mut mass_points = vec![contact_m];
+    let longest_m = shapes.iter().map(|shape| shape.rod_length_m).fold(0.0, f64::max);
+    let mut sizes: [Units; SIZES] = std::array::from_fn(|_| Units::default());
+    sizes[0].mass_points_m.push(contact_m);
     for (i, direction) in directions.iter().copied().enumerate() {
         let chain = if count >= shapes.len() { i % shapes.len() } else { i * shapes.len() / count };
-        let aside = normal.cross(direction);
-        for Rhombus { tips, sides } in row(&shapes[chain], &RowStart { contact_m, normal, direction }) {
-            let colour = RODS[chain % RODS.len()];
-            rods.add([tips[0], sides[0], tips[1], sides[1], tips[0]], colour);
-            springs.add(spring(sides[0], sides[1], aside, SPRING_TURNS), NORMAL_SPRING);
-            springs.add(spring(tips[0], tips[1], aside, SPRING_TURNS), TANGENTIAL_SPRING);
-            mass_points.extend([tips[1], sides[0], sides[1]]);
+        let mut rod_m = shapes[chain].rod_length_m;
+        for rhombus in row(&shapes[chain], &RowStart { contact_m, normal, direction }) {
+            sizes[size_of(rod_m / longest_m)].add(
+                &rhombus,
+                RODS[chain % RODS.len()],
+                normal.cross(direction),
+            );
+            rod_m *= shapes[chain].ratio;
         }
     }
-    let rod_m = shapes.iter().map(|shape| shape.rod_length_m).fold(0.0, f64::max);
-    let drawing = |part, shape, points_m, colours| Drawing {
-        key: Key { thing: Thing::Chains, id: 3 * device + part },
-        frame_id: frame_id.to_owned(),
-        shape,
-        points_m,
-        colour: MASS_POINTS,
-        colours,
-    };
-    vec![
-        drawing(0, Shape::Lines { width_m: ROD_WIDTH * rod_m }, rods.ends_m, rods.colours),
-        drawing(1, Shape::Lines { width_m: SPRING_WIDTH * rod_m }, springs.ends_m, springs.colours),
-        drawing(2, Shape::Spheres { diameter_m: MASS_POINT_DIAMETER * rod_m }, mass_points, Vec::new()),
-    ]
+    let mut drawings = Vec::new();
+    for (size, units) in sizes.into_iter().enumerate() {
+        let rod_m = longest_m / f64::from(1 << size);
+        let mut push = |part: usize, shape, points_m: Vec<DVec3>, colours| {
+            if !points_m.is_empty() {
+                // The numbers are small constants times the number of a device.
+                let id = device * (SIZES * PARTS) as i32 + (PARTS * size + part) as i32;
+                let key = Key { thing: Thing::Chains, id };
+                let frame_id = frame_id.to_owned();
+                drawings.push(Drawing { key, frame_id, shape, points_m, colour: MASS_POINTS, colours });
+            }
+        };
+        push(0, Shape::Lines { width_m: ROD_WIDTH * rod_m }, units.rods.ends_m, units.rods.colours);
+        push(1, Shape::Lines { width_m: SPRING_WIDTH * rod_m }, units.springs.ends_m, units.springs.colours);
+        push(2, Shape::Spheres { diameter_m: MASS_POINT_DIAMETER * rod_m }, units.mass_points_m, Vec::new());
+    }
+    drawings
+}
+
+/// The class of a rod that is this share of the longest: 0 above a half, 1 above a quarter, and so on.
+fn size_of(share: f64) -> usize {
+    let halvings = (0..SIZES).take_while(|halvings| share <= 0.5 / f64::from(1 << halvings)).count();
+    halvings.min(SIZES - 1)
+}
+
+/// Units of one size.
+#[derive(Default)]
+struct Units {
+    rods: Strokes,
+    springs: Strokes,
+    mass_points_m: Vec<DVec3>,
+}
+
+impl Units {
+    fn add(&mut self, unit: &Rhombus, colour: Colour, aside: DVec3) {
+        let Rhombus { tips, sides } = *unit;
+        self.rods.add([tips[0], sides[0], tips[1], sides[1], tips[0]], colour);
+        self.springs.add(spring(sides[0], sides[1], aside, SPRING_TURNS), NORMAL_SPRING);
+        self.springs.add(spring(tips[0], tips[1], aside, SPRING_TURNS), TANGENTIAL_SPRING);
+        self.mass_points_m.extend([tips[1], sides[0], sides[1]]);
+    }
 }
 
 /// Lines with a colour each.
@@ -115,18 +149,43 @@ mod tests {
         chains(2, "base", shapes, DVec3::new(0.0, 0.0, -0.002), DVec3::Z, &directions)
     }
 
+    /// Number of points of all markers of a part.
+    fn points(drawings: &[Drawing], part: i32) -> usize {
+        let of_part = drawings.iter().filter(|drawing| drawing.key.id % PARTS as i32 == part);
+        of_part.map(|drawing| drawing.points_m.len()).sum()
+    }
+
     #[test]
     fn every_unit_has_four_rods_two_springs_and_shares_its_mass_points() {
-        let [rods, springs, mass_points] = <[Drawing; 3]>::try_from(draw(&[shape(0.01)])).unwrap();
+        let drawings = draw(&[shape(0.01)]);
         let units = 4 * 3;
-        assert_eq!(rods.points_m.len(), 2 * 4 * units);
-        assert_eq!(springs.points_m.len(), 2 * 2 * 9 * units);
-        assert_eq!(mass_points.points_m.len(), 1 + 3 * units);
-        assert_eq!((rods.key.id, springs.key.id, mass_points.key.id), (6, 7, 8));
-        for drawing in [rods, springs, mass_points] {
+        assert_eq!(points(&drawings, 0), 2 * 4 * units);
+        assert_eq!(points(&drawings, 1), 2 * 2 * 9 * units);
+        assert_eq!(points(&drawings, 2), 1 + 3 * units);
+        for drawing in drawings {
             assert!(drawing.points_m.iter().all(|point| is_drawable(*point)));
             assert!(drawing.colours.is_empty() || drawing.colours.len() == drawing.points_m.len());
         }
+    }
+
+    #[test]
+    fn smaller_units_are_drawn_with_thinner_lines() {
+        // Rods of 1, 1/2 and 1/4: a marker has one width.
+        let drawings = draw(&[shape(0.01)]);
+        let widths = drawings.iter().filter_map(|drawing| match drawing.shape {
+            Shape::Lines { width_m } => Some((drawing.key.id, width_m)),
+            _ => None,
+        });
+        let base = 2 * 12;
+        let thick = [(base, 7e-4), (base + 1, 3e-4)];
+        let expected =
+            [0, 1, 2].map(|size| thick.map(|(id, width)| (id + 3 * size, width / f64::from(1 << size))));
+        for ((id, width), (expected_id, expected_width)) in widths.zip(expected.concat()) {
+            assert_eq!(id, expected_id);
+            assert!((width - expected_width).abs() < 1e-15);
+        }
+        assert_eq!([1.0, 0.51, 0.5, 0.26, 0.25, 0.125, 1e-9].map(size_of), [0, 0, 1, 1, 2, 3, 3]);
+        assert_eq!(size_of(f64::NAN), 0);
     }
 
     #[test]
@@ -134,13 +193,17 @@ mod tests {
         assert_eq!([1, 2, 3, 4, 5, 12].map(rows), [4, 4, 6, 4, 5, 12]);
         assert_eq!([0, 13, 1000].map(rows), [0, 12, 12]);
         let shapes: Vec<ChainShape> = (1..=3).map(|i| shape(0.01 * f64::from(i))).collect();
-        let lengths: Vec<f64> =
-            draw(&shapes)[0].points_m.chunks(2).map(|rod| rod[0].distance(rod[1])).collect();
+        let drawings = draw(&shapes);
+        let rods = drawings
+            .iter()
+            .filter(|drawing| drawing.key.id % 3 == 0)
+            .flat_map(|rods| rods.points_m.chunks(2));
+        let lengths: Vec<f64> = rods.map(|rod| rod[0].distance(rod[1])).collect();
         for shape in &shapes {
             assert!(lengths.iter().any(|length| (length - shape.rod_length_m).abs() < 1e-12));
         }
         let many: Vec<ChainShape> = (0..100).map(|_| shape(0.01)).collect();
-        assert_eq!(draw(&many)[0].points_m.len(), 2 * 4 * 3 * MOST_ROWS);
+        assert_eq!(points(&draw(&many), 0), 2 * 4 * 3 * MOST_ROWS);
     }
 
     #[test]
