@@ -90,7 +90,7 @@ impl Scene {
             },
             session: SessionSettings {
                 scene_frame_id: p.text("scene.frame_id")?.to_owned(),
-                devices: p.texts("devices")?.to_vec(),
+                devices: devices(&p)?,
                 clutch_button: non_empty(p.text("clutch.button")?).map(str::to_owned),
                 use_sim_time: p.bool("use_sim_time")?,
             },
@@ -180,6 +180,23 @@ impl Scene {
             spread: self.surface.spread,
             contact_radius_m: self.probe.contact_radius_m,
         }
+    }
+}
+
+/// Sub-namespaces, each once: two devices on one topic would each answer every pose.
+fn devices(p: &Parameters) -> Result<Vec<String>, SceneError> {
+    let names = p.texts("devices")?;
+    let repeated = (1..names.len()).find(|i| names[..*i].contains(&names[*i]));
+    match repeated {
+        None => Ok(names.to_vec()),
+        Some(index) => Err(p.error(
+            "devices",
+            Problem::OutOfRange {
+                value: format!("{:?}", names[index]),
+                index: Some(index),
+                accepted: "each name once".to_owned(),
+            },
+        )),
     }
 }
 

@@ -98,7 +98,7 @@ fn at_surface_rate_0_no_surface_is_built_and_nothing_allocated_for_it() {
         assert!(plan.leaves_out(part) && plan.part(part).is_none(), "{part}");
     }
     let displacement = plan.topics.iter().find(|topic| topic.name == "surface_displacement").expect("there");
-    assert_eq!(displacement.state, TopicState::Silent("surface.rate is 0"));
+    assert_eq!(displacement.state, TopicState::Absent("surface.rate is 0"));
     let body = still.load_body().expect("a body").body;
     let tissue = still.tissue().expect("a tissue");
     let (field, held) = held(|| still.surface_field(&body, &tissue));

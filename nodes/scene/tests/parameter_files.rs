@@ -451,3 +451,10 @@ fn a_package_path_that_no_package_has() {
         "{message}"
     );
 }
+
+#[test]
+fn two_devices_on_the_same_topics() {
+    let error = error(&with_chain("    devices: [left, left]\n"));
+    assert!(error.starts_with("scene.yaml:10: devices: \"left\" is not accepted"), "{error}");
+    assert!(error.ends_with("accepted: each name once"), "{error}");
+}

@@ -50,6 +50,19 @@ fn sites_keep_away_from_thin_lobes_and_sharp_edges() {
 }
 
 #[test]
+fn a_sheet_is_not_mistaken_for_thick_because_the_other_side_is_far() {
+    let mut shape = body(BodyKind::Liver, 1500);
+    for vertex in &mut shape.vertices {
+        // The left half becomes a sheet of a millimetre or two.
+        vertex.z *= if vertex.x > 0.0 { 0.03 } else { 1.0 };
+    }
+    let liver = Body::new(SurfaceMesh::new(shape.vertices, shape.triangles).expect("a body"));
+    for site in sites(&liver, 6) {
+        assert!(site.point.x < 0.01, "{site:?}");
+    }
+}
+
+#[test]
 fn sites_are_the_same_every_time_and_never_more_than_there_are_vertices() {
     let small = generated(BodyKind::Sphere, 20);
     assert_eq!(sites(&small, 3), sites(&small, 3));

@@ -146,3 +146,41 @@ fn cotangent(tip: DVec3, a: DVec3, b: DVec3) -> f64 {
     let (u, v) = (a - tip, b - tip);
     u.dot(v) / u.cross(v).length().max(f64::MIN_POSITIVE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_that_is_there_already_is_recognised() {
+        let tetrahedron = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let surface = Surface::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z], tetrahedron);
+        for h in 0..12 {
+            let opposite = surface.corner(previous(surface.twins[h as usize]));
+            assert!(surface.are_neighbours(h, opposite), "every two corners of a tetrahedron have an edge");
+        }
+        let octahedron =
+            vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
+        let surface = Surface::new(vec![DVec3::ZERO; 6], octahedron);
+        for h in 0..24 {
+            let opposite = surface.corner(previous(surface.twins[h as usize]));
+            assert!(!surface.are_neighbours(h, opposite), "the far corners of an octahedron have none");
+        }
+    }
+
+    #[test]
+    fn a_flip_keeps_the_surface_closed_and_makes_the_long_diagonal_short() {
+        // A flat double-sided kite, cut along its long diagonal 0-1.
+        let kite =
+            vec![DVec3::new(-2.0, 0.0, 0.0), DVec3::new(2.0, 0.0, 0.0), DVec3::Y, -DVec3::Y, DVec3::Z * -3.0];
+        let triangles = vec![[0, 1, 2], [1, 0, 3], [1, 4, 2], [2, 4, 0], [0, 4, 3], [3, 4, 1]];
+        let mut surface = Surface::new(kite, triangles);
+        surface.flip_to_delaunay();
+        let diagonal = surface.triangles.iter().filter(|t| t.contains(&2) && t.contains(&3)).count();
+        assert_eq!(diagonal, 2, "{:?}", surface.triangles);
+        for (h, twin) in surface.twins.iter().enumerate() {
+            assert_eq!(surface.twins[*twin as usize], h as u32);
+            assert_eq!(surface.corner(*twin), surface.corner(next(h as u32)));
+        }
+    }
+}

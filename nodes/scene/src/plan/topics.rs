@@ -79,7 +79,7 @@ pub(super) fn planned(scene: &Scene) -> Vec<PlannedTopic> {
 
 fn state(scene: &Scene, topic: &str) -> TopicState {
     match topic {
-        "surface_displacement" if scene.surface.rate_hz <= 0.0 => TopicState::Silent("surface.rate is 0"),
+        "surface_displacement" if scene.surface.rate_hz <= 0.0 => TopicState::Absent("surface.rate is 0"),
         "markers" if !scene.has_markers() => TopicState::Silent("visualization.rate is 0"),
         "clutch" if scene.session.clutch_button.is_none() => TopicState::Absent("clutch.button is \"\""),
         "clock" if !scene.session.use_sim_time => TopicState::Absent("use_sim_time is false"),
