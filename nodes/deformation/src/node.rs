@@ -63,7 +63,7 @@ impl Deformation {
         let body_frame = kit.frame_id(&scene.body.frame_id);
         let mesh = convert::mesh(loaded.body.mesh().vertices(), loaded.body.mesh().triangles());
         let mut surface = Surface::new(body_frame.clone(), convert::topology_version(&mesh));
-        surface.set_rate(kit, scene.surface.rate_hz, &loaded.body, &tissue)?;
+        surface.set_rate(kit, &scene, &loaded.body, &tissue)?;
         kit.publish(&topics::BODY_MESH, "")?.publish(&mesh)?;
         let names = &scene.session.devices;
         let devices: Result<Vec<Device>, _> =
@@ -108,7 +108,7 @@ impl Deformation {
         self.tissue = scene.tissue()?;
         self.devices.iter_mut().for_each(|device| device.retune(&self.tissue, &scene));
         if changes.iter().any(|change| change.name == "surface.rate") {
-            self.surface.set_rate(kit, scene.surface.rate_hz, &self.body, &self.tissue)?;
+            self.surface.set_rate(kit, &scene, &self.body, &self.tissue)?;
         }
         for Change { name, value } in changes {
             kit.log().info(&format!("{name} is now {value}"));

@@ -3,6 +3,7 @@
 use node_kit::{NodeKit, PublishError, Publisher, StartError, convert, topics};
 use r2r::rhombus_haptics_msgs::msg::SurfaceDisplacement;
 use rhombus_chain::{Body, DeviceSession, StampRate, SurfaceField, Tissue};
+use scene::Scene;
 
 /// The surface's output: the topic, and what fills it.
 pub(crate) struct Surface {
@@ -21,20 +22,17 @@ impl Surface {
         Surface { message, publisher: None, at_rate: None, published: 0 }
     }
 
-    /// Compute and publish `rate_hz` times in a second of stamps from now on; 0 drops the field and its memory.
+    /// Compute and publish at `surface.rate` from now on; 0 drops the field and its memory.
     pub(crate) fn set_rate(
         &mut self,
         kit: &mut NodeKit,
-        rate_hz: f64,
+        scene: &Scene,
         body: &Body,
         tissue: &Tissue,
     ) -> Result<(), StartError> {
-        let field = self.at_rate.take().map(|(_, field)| field);
-        if let Some(rate) = StampRate::new(rate_hz) {
-            self.at_rate = Some((rate, field.unwrap_or_else(|| SurfaceField::new(body, tissue))));
-            if self.publisher.is_none() {
-                self.publisher = Some(kit.publish(&topics::SURFACE_DISPLACEMENT, "")?);
-            }
+        self.at_rate = scene.surface_field(body, tissue);
+        if self.at_rate.is_some() && self.publisher.is_none() {
+            self.publisher = Some(kit.publish(&topics::SURFACE_DISPLACEMENT, "")?);
         }
         Ok(())
     }

@@ -96,3 +96,63 @@ pub const CLOCK: Topic<Clock> = Topic::new("/clock", QosProfile::default().keep_
 pub const TF: Topic<TFMessage> = Topic::new("/tf", reliable(100));
 /// Transforms that stay.
 pub const TF_STATIC: Topic<TFMessage> = Topic::new("/tf_static", latched(100));
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::{Origin, Scene, Value};
+
+    /// Name and "package/Type" of a topic.
+    fn row<M>(topic: &Topic<M>) -> (String, String) {
+        let path: Vec<&str> = std::any::type_name::<M>().split("::").collect();
+        let [.., package, _, message] = path[..] else { panic!("{path:?} is no message") };
+        (topic.name().to_owned(), format!("{package}/{message}"))
+    }
+
+    #[test]
+    fn the_topics_that_a_scene_announces_are_these_with_these_types() {
+        let one = |name: &str, x| (format!("chains.{name}"), Value::DoubleArray(vec![x]));
+        let mut values = vec![one("rod_length", 0.01), one("angle", 0.5), one("ratio", 0.8)];
+        values.extend([
+            one("normal_stiffness", 500.0),
+            one("tangential_stiffness", 0.0),
+            one("tangential_growth", 1.0),
+        ]);
+        values.push(("chains.units".to_owned(), Value::IntegerArray(vec![3])));
+        values.push(("body.mesh".to_owned(), Value::String("block".to_owned())));
+        let scene = Scene::from_values(values, Origin::named("a test")).unwrap();
+        let planned = scene.plan().unwrap().topics;
+        let mut planned: Vec<_> =
+            planned.into_iter().map(|topic| (topic.name, topic.message.to_owned())).collect();
+        let mut ours = [
+            row(&MEASURED_CP),
+            row(&MEASURED_CV),
+            row(&MEASURED_CF),
+            row(&GRIPPER_MEASURED_JS),
+            row(&GRASP),
+            row(&CLUTCH),
+            row(&SERVO_CF),
+            row(&CONTACT_LAW),
+            row(&CONTACT_STATE),
+            row(&SURFACE_DISPLACEMENT),
+            row(&BODY_MESH),
+            row(&MARKERS),
+            row(&DIAGNOSTICS),
+            row(&ROSOUT),
+            row(&PARAMETER_EVENTS),
+            row(&CLOCK),
+            row(&TF),
+            row(&TF_STATIC),
+        ];
+        planned.sort();
+        ours.sort();
+        assert_eq!(planned, ours);
+    }
+
+    #[test]
+    fn a_devices_topics_stand_in_its_sub_namespace() {
+        assert_eq!(MEASURED_CP.name_in(""), "measured_cp");
+        assert_eq!(MEASURED_CP.name_in("left"), "left/measured_cp");
+        assert_eq!(MEASURED_CP.name_in("/left/"), "/left/measured_cp");
+    }
+}
