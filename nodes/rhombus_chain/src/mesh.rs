@@ -11,8 +11,8 @@ pub use error::MeshError;
 pub use inspection::{Inspection, inspect};
 
 pub(crate) use measures::{is_usable, length, unit};
-pub(crate) use topology::destination;
 use topology::{HalfEdges, NONE, Topology};
+pub(crate) use topology::{destination, next, previous};
 
 /// Largest coordinate that is taken seriously, in metres. Products of three of them stay far from overflow.
 pub(crate) const COORDINATE_LIMIT_M: f64 = 1e6;
@@ -142,8 +142,7 @@ impl SurfaceMesh {
     pub(crate) fn fan(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
         let first = self.vertex_half_edges[vertex as usize];
         std::iter::successors(Some(first), move |&h| {
-            let next = self.twin(h);
-            let next = if next % 3 == 2 { next - 2 } else { next + 1 };
+            let next = next(self.twin(h));
             (next != first).then_some(next)
         })
     }

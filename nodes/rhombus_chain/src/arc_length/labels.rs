@@ -1,10 +1,6 @@
 //! Arc lengths found so far, and a queue of those that have still to be carried on.
 
-/// "No vertex" in the links of the queue.
-const NONE: u32 = u32::MAX;
-
-/// Number of shelves in the queue.
-const SHELVES: usize = 512;
+use super::shelves::{NONE, Shelves};
 
 /// What is known of one vertex.
 #[derive(Clone, Copy, Debug)]
@@ -13,52 +9,34 @@ pub(super) struct Label {
     pub(super) arc_m: f64,
     /// Whether it has been carried on to the neighbours and not been shortened since.
     pub(super) is_settled: bool,
-    /// The vertex behind this one on the same shelf of the queue.
-    next: u32,
+    /// The vertex behind this one in the queue.
+    behind: u32,
 }
 
 /// Nothing is known.
-const UNKNOWN: Label = Label { arc_m: f64::INFINITY, is_settled: false, next: NONE };
+const UNKNOWN: Label = Label { arc_m: f64::INFINITY, is_settled: false, behind: NONE };
 
 /// Labels of all vertices, in memory of fixed size.
-///
-/// The queue hands out vertices nearly in the order of their arcs: sorted to shelves of equal depth, last come first served
-/// on a shelf. An exact order would cost more than the few vertices it saves from being carried on twice.
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     labels: Vec<Label>,
     /// Vertices with a label.
     known: Vec<u32>,
-    /// First vertex of each shelf; arcs one round of shelves apart share one.
-    shelves: [u32; SHELVES],
-    shelves_per_m: f64,
-    /// The shelf being served, counted through all rounds.
-    present: u64,
-    waiting: usize,
+    queue: Shelves,
 }
 
 impl Labels {
-    /// For a surface of so many vertices, whose edges have these lengths.
-    pub(super) fn new(vertices: usize, mean_edge_m: f64, longest_edge_m: f64) -> Self {
-        // A neighbour is at most an edge farther, so that less than one round of shelves is in use.
-        let depth_m = (0.12 * mean_edge_m).max(longest_edge_m / (SHELVES - 2) as f64);
-        Self {
-            labels: vec![UNKNOWN; vertices],
-            known: Vec::with_capacity(vertices),
-            shelves: [NONE; SHELVES],
-            shelves_per_m: 1.0 / depth_m,
-            present: 0,
-            waiting: 0,
-        }
+    pub(super) fn new(vertices: usize, queue: Shelves) -> Self {
+        Self { labels: vec![UNKNOWN; vertices], known: Vec::with_capacity(vertices), queue }
     }
 
-    /// Forgets all labels.
+    /// Forgets all labels. The queue has to be empty.
     pub(super) fn clear(&mut self) {
         for &vertex in &self.known {
             self.labels[vertex as usize] = UNKNOWN;
         }
         self.known.clear();
-        self.present = 0;
+        self.queue.restart();
     }
 
     #[inline]
@@ -71,12 +49,12 @@ impl Labels {
         &self.known
     }
 
-    /// Forgets labels that are not needed any more.
-    pub(super) fn retain(&mut self, is_needed: impl Fn(f64) -> bool) {
+    /// Forgets the labels that are not below `limit_m`.
+    pub(super) fn trim(&mut self, limit_m: f64) {
         let labels = &mut self.labels;
         self.known.retain(|&vertex| {
             let label = &mut labels[vertex as usize];
-            let keeps = is_needed(label.arc_m);
+            let keeps = label.arc_m < limit_m;
             if !keeps {
                 *label = UNKNOWN;
             }
@@ -97,32 +75,18 @@ impl Labels {
         }
         // One that waits already keeps its place: it comes a little late, and is carried on with its new label.
         if !is_waiting {
-            let shelf = ((arc_m * self.shelves_per_m) as u64).max(self.present);
-            let first = &mut self.shelves[shelf as usize % SHELVES];
-            label.next = *first;
-            *first = vertex;
-            self.waiting += 1;
+            label.behind = self.queue.push(vertex, arc_m);
         }
     }
 
     /// Takes one of the nearest vertices from the queue.
     #[inline]
     pub(super) fn settle_next(&mut self) -> Option<(u32, f64)> {
-        if self.waiting == 0 {
-            return None;
-        }
-        loop {
-            let first = &mut self.shelves[self.present as usize % SHELVES];
-            if *first != NONE {
-                let vertex = *first;
-                let label = &mut self.labels[vertex as usize];
-                *first = label.next;
-                label.is_settled = true;
-                self.waiting -= 1;
-                return Some((vertex, label.arc_m));
-            }
-            self.present += 1;
-        }
+        let labels = &mut self.labels;
+        let vertex = self.queue.pop(|vertex| labels[vertex as usize].behind)?;
+        let label = &mut labels[vertex as usize];
+        label.is_settled = true;
+        Some((vertex, label.arc_m))
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

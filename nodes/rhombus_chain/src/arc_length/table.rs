@@ -18,13 +18,13 @@ impl Edge {
     /// Whether a vertex `start_m` away from the source may shorten the `end_m` at the edge's other end. `false` is certain.
     ///
     /// A straight way to the end through a triangle beside the edge comes at an angle phi from the edge, no larger than the
-    /// triangle's angle there. Where it is `end_m` long, the start is `sqrt(end^2 + l^2 - 2 end l cos phi)` away: at most that with the
-    /// larger angle. A start that is farther away has no such way that is shorter than `end_m`.
+    /// triangle's angle gamma there. If it is D long, the start is at most `sqrt(D^2 + l^2 - 2 D l cos gamma)` away; over all D up to
+    /// `end_m` that is most at one of the two ends. From a start that is farther away there is no such way.
     #[inline]
     pub(super) fn may_shorten(&self, end_m: f64, start_m: f64) -> bool {
         let l = self.length_m;
         let slack = 1.0 + 1e-6; // the angle is in single precision
-        start_m * start_m <= (end_m * (end_m - 2.0 * f64::from(self.turn_m)) + l * l) * slack
+        start_m * start_m <= ((end_m * (end_m - 2.0 * f64::from(self.turn_m))).max(0.0) + l * l) * slack
     }
 }
 
@@ -83,12 +83,14 @@ impl Table {
     ///
     /// With the source at distance D from c, at an angle phi from the edge c b of length l, b is at
     /// `sqrt(D^2 + l^2 - 2 D l cos phi)`. The way crosses a triangle a b c, so phi is at most its angle at c: only an obtuse one leaves
-    /// a distance behind c that does not shrink with D. Twice that, for b may in turn depend on vertices behind it.
+    /// a distance behind c that does not shrink with D. Three times that, for b may in turn depend on vertices behind it.
+    /// Measured with random limits: 6 arcs of 100 000 on a liver, 700 on a lens ten times as wide as thick still depend on the
+    /// limit, by less than 0.5 %.
     #[inline]
     pub(super) fn horizon_m(&self, vertex: u32, limit_m: f64) -> f64 {
         let [l, obtuse] = self.reach[vertex as usize];
         let behind = (limit_m * limit_m + l * (l + 2.0 * limit_m * obtuse)).sqrt() - limit_m;
-        limit_m + 2.0 * behind
+        limit_m + 3.0 * behind
     }
 
     pub(super) fn mean_and_longest_edge_m(&self) -> [f64; 2] {

@@ -61,7 +61,14 @@ pub(crate) fn destination(triangles: &[[u32; 3]], h: u32) -> u32 {
     triangles[(h / 3) as usize][((h + 1) % 3) as usize]
 }
 
+/// The half-edge after `h` in its triangle.
+#[inline]
+pub(crate) fn next(h: u32) -> u32 {
+    if h % 3 == 2 { h - 2 } else { h + 1 }
+}
+
 /// The half-edge before `h` in its triangle.
+#[inline]
 pub(crate) fn previous(h: u32) -> u32 {
     if h.is_multiple_of(3) { h + 2 } else { h - 1 }
 }
