@@ -1,4 +1,5 @@
 //! From the hand's pose in any frame to the force in that frame: frames, motion scale, clutch, grasp, rejected poses.
+#![expect(clippy::unwrap_used, reason = "a test may fail here")]
 
 mod common;
 
@@ -132,7 +133,7 @@ fn gripper_or_command_hold_the_surface_until_both_let_go() {
     let (body, tissue) = (a_block(), tissue());
     let mut device = DeviceSession::new(1.0);
     let hand = pressed(&tissue, 0.003);
-    let mut mode_at = |device: &mut DeviceSession, ms| {
+    let mode_at = |device: &mut DeviceSession, ms| {
         device.answer(&body, &tissue, &hand_at(ms, hand, Pose::IDENTITY)).unwrap().step.mode
     };
     assert_eq!(mode_at(&mut device, 0), Mode::Contact);
