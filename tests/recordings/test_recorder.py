@@ -137,6 +137,7 @@ def test_a_killed_recorder_leaves_what_came_up_to_a_second_before(tmp_path, prog
         ({"recording.name": "../elsewhere"}, ["recording.name", "../elsewhere", "letters"]),
         ({"recording.name": "there_already"}, ["there_already", "exists", "not overwritten"]),
         ({"recording.directory": "/proc/nothing"}, ["/proc/nothing"]),
+        ({"recording.topics": ["measured_cp", "white space"]}, ["recording.topics", "/white space"]),
         ({"bag_replay.mode": "rewind"}, ["bag_replay.mode", "rewind", "record", "play"]),
     ],
 )

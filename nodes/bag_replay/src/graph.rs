@@ -6,8 +6,11 @@ use r2r::QosProfile;
 use r2r::qos::{DurabilityPolicy, HistoryPolicy, LivelinessPolicy, ReliabilityPolicy};
 use recording::{Durability, History, Liveliness, Qos, QosTime, Reliability};
 
-/// Messages that rcl keeps for a recorder that is held up, and for subscribers of a replay: a second at 1 kHz.
-const DEPTH: usize = 1000;
+/// Messages of a topic that rcl keeps for a recorder that is held up: ten seconds at 1 kHz. Memory is taken for those that
+/// really wait.
+const RECORDER_DEPTH: usize = 10_000;
+/// Messages of a topic that a replay keeps for subscribers that missed them: a second at 1 kHz.
+const REPLAY_DEPTH: usize = 1000;
 
 /// What a recorder asks of publishers: the most that all of them can give.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +43,7 @@ impl Request {
 
     /// As a subscription needs it.
     pub(crate) fn profile(self) -> QosProfile {
-        let profile = QosProfile::default().keep_last(DEPTH);
+        let profile = QosProfile::default().keep_last(RECORDER_DEPTH);
         let profile = if self.reliable { profile.reliable() } else { profile.best_effort() };
         if self.transient_local { profile.transient_local() } else { profile.volatile() }
     }
@@ -95,7 +98,7 @@ pub(crate) fn is_reliable(offers: &[Qos]) -> bool {
 /// What a replay offers in place of the recorded publishers: the greatest of their offers, so that whoever heard one of
 /// them hears the replay. How much a publisher kept is not known to recorders, so a second at 1 kHz is kept.
 pub(crate) fn replayed(offers: &[Qos]) -> QosProfile {
-    let profile = QosProfile::default().keep_last(DEPTH);
+    let profile = QosProfile::default().keep_last(REPLAY_DEPTH);
     let profile = if is_reliable(offers) { profile.reliable() } else { profile.best_effort() };
     let profile = if is_latched(offers) { profile.transient_local() } else { profile.volatile() };
     let shortest = |time: fn(&Qos) -> QosTime| {

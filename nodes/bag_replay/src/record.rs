@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use anyhow::bail;
+use anyhow::{Context, bail};
 use node_kit::{Level, NodeKit, Status};
 use recording::{MessageDefinitions, Writer, Written};
 use serde_json::json;
@@ -23,12 +23,17 @@ const LONGEST_END: Duration = Duration::from_millis(500);
 /// Records until the node is asked to end.
 pub(crate) fn run(kit: &mut NodeKit, settings: &RecordSettings) -> anyhow::Result<()> {
     let ros_distro = std::env::var("ROS_DISTRO").unwrap_or_default();
-    let mut recorder = Recorder {
-        subscriptions: subscriptions(kit, settings)?,
-        definitions: MessageDefinitions::from_environment(),
-        storage: Storage::start(Writer::create(&settings.directory, &ros_distro)?)?,
-        next_look: Instant::now(),
-    };
+    // First what can fail because of a parameter: a recording that cannot begin leaves no directory behind.
+    let subscriptions = subscriptions(kit, settings)?;
+    let writer = Writer::create(&settings.directory, &ros_distro)?;
+    let definitions = MessageDefinitions::from_environment();
+    let log = kit.log().clone();
+    let storage = Storage::start(
+        writer,
+        Box::new(move |type_name| definitions.get(type_name)),
+        Box::new(move |text| log.warn(text)),
+    )?;
+    let mut recorder = Recorder { subscriptions, storage, next_look: Instant::now() };
     kit.ready(&format!("recording to {}", settings.directory.display()));
     while kit.is_running() && !recorder.storage.has_failed() {
         recorder.turn(kit, LOOK_PERIOD)?;
@@ -55,7 +60,6 @@ pub(crate) fn run(kit: &mut NodeKit, settings: &RecordSettings) -> anyhow::Resul
 
 struct Recorder {
     subscriptions: Vec<Subscription>,
-    definitions: MessageDefinitions,
     storage: Storage,
     next_look: Instant,
 }
@@ -67,12 +71,12 @@ impl Recorder {
         let now_ns = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |now| now.as_nanos() as u64);
         let mut any = false;
         for subscription in &mut self.subscriptions {
-            any |= subscription.drain(kit, &mut self.storage, &self.definitions, now_ns);
+            any |= subscription.drain(kit, &mut self.storage, now_ns);
         }
         let now = Instant::now();
         if now >= self.next_look {
             for subscription in &mut self.subscriptions {
-                subscription.look(kit, &mut self.storage, &self.definitions)?;
+                subscription.look(kit, &mut self.storage)?;
             }
             let waiting = self.subscriptions.iter().any(Subscription::is_waiting);
             self.next_look = now + if waiting { LOOK_PERIOD } else { LOOK_PERIOD_COMPLETE };
@@ -107,6 +111,8 @@ fn subscriptions(kit: &mut NodeKit, settings: &RecordSettings) -> anyhow::Result
         subscriptions.push(Subscription::to_session_topic(kit, &topic.name, topic.type_name, &topic.qos)?);
     }
     for name in settings.topics.iter().filter(|name| known.iter().all(|topic| topic.name != **name)) {
+        let publishers = kit.node().get_publishers_info_by_topic(name, false);
+        publishers.with_context(|| format!("recording.topics: {name:?} is not the name of a topic"))?;
         subscriptions.push(Subscription::to_any_topic(name));
     }
     Ok(subscriptions)

@@ -1,6 +1,6 @@
 //! The thread that writes: everything comes to it through one queue and is stored in that order.
 //!
-//! The queue is bounded and a full one holds up the receiving side, where rcl keeps another second of messages: a disk
+//! The queue is bounded and a full one holds up the receiving side, where rcl keeps some more seconds of messages: a disk
 //! that pauses loses nothing, and one that stops for good does not eat the memory.
 
 use std::thread::JoinHandle;
@@ -8,16 +8,23 @@ use std::time::Duration;
 
 use anyhow::{Context, anyhow};
 use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, TrySendError, bounded};
-use recording::{Topic, TopicId, Writer, Written};
+use recording::{DefinitionError, MessageDefinition, Qos, Topic, TopicId, Writer, Written};
 
 /// Several seconds of a session with two devices.
 const QUEUE_MESSAGES: usize = 1 << 16;
 /// Without new messages what was received goes to the file after this long.
 const IDLE: Duration = Duration::from_millis(250);
 
+/// Finds the text of a type. It reads files, which may take its time: the receiving side must not wait for it.
+type FindDefinition = dyn Fn(&str) -> Result<MessageDefinition, DefinitionError> + Send;
+
 enum Job {
     /// The next topic; they are numbered in the order in which they come.
-    Topic(Box<Topic>),
+    Topic {
+        name: String,
+        type_name: String,
+        offered_qos: Vec<Qos>,
+    },
     Message {
         topic: usize,
         log_time_ns: u64,
@@ -35,17 +42,28 @@ pub(crate) struct Storage {
 }
 
 impl Storage {
-    /// Starts the thread.
-    pub(crate) fn start(writer: Writer) -> anyhow::Result<Self> {
+    /// Starts the thread. A topic whose type has no definition is recorded without one, and `warn` is told.
+    pub(crate) fn start(
+        writer: Writer,
+        find_definition: Box<FindDefinition>,
+        warn: Box<dyn Fn(&str) + Send>,
+    ) -> anyhow::Result<Self> {
         let (jobs, queue) = bounded(QUEUE_MESSAGES);
-        let thread =
-            std::thread::Builder::new().name("bag_writer".to_owned()).spawn(move || write(writer, &queue));
+        let definition_of = move |name: &str, type_name: &str| {
+            find_definition(type_name).unwrap_or_else(|error| {
+                warn(&format!("{name} is recorded without the text of its type: {error}"));
+                MessageDefinition::default()
+            })
+        };
+        let thread = std::thread::Builder::new()
+            .name("bag_writer".to_owned())
+            .spawn(move || write(writer, &queue, definition_of));
         Ok(Self { jobs, thread: thread.context("the writing thread")?, topics: 0, messages: 0, held_up: 0 })
     }
 
     /// Adds a topic and gives its number.
-    pub(crate) fn add_topic(&mut self, topic: Topic) -> usize {
-        self.send(Job::Topic(Box::new(topic)));
+    pub(crate) fn add_topic(&mut self, name: &str, type_name: &str, offered_qos: Vec<Qos>) -> usize {
+        self.send(Job::Topic { name: name.to_owned(), type_name: type_name.to_owned(), offered_qos });
         self.topics += 1;
         self.topics - 1
     }
@@ -91,11 +109,20 @@ impl Storage {
     }
 }
 
-fn write(mut writer: Writer, queue: &Receiver<Job>) -> anyhow::Result<Written> {
+fn write(
+    mut writer: Writer,
+    queue: &Receiver<Job>,
+    definition_of: impl Fn(&str, &str) -> MessageDefinition,
+) -> anyhow::Result<Written> {
     let mut topics: Vec<TopicId> = Vec::new();
     loop {
         match queue.recv_timeout(IDLE) {
-            Ok(Job::Topic(topic)) => topics.push(writer.add_topic(*topic)?),
+            Ok(Job::Topic { name, type_name, offered_qos }) => {
+                let definition = definition_of(&name, &type_name);
+                let serialization_format = "cdr".to_owned();
+                let topic = Topic { name, type_name, serialization_format, offered_qos, definition };
+                topics.push(writer.add_topic(topic)?);
+            }
             Ok(Job::Message { topic, log_time_ns, data }) => {
                 let topic = topics.get(topic).ok_or_else(|| anyhow!("a message came before its topic"))?;
                 writer.write(*topic, log_time_ns, &data)?;
@@ -109,29 +136,28 @@ fn write(mut writer: Writer, queue: &Receiver<Job>) -> anyhow::Result<Written> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use recording::{MessageDefinition, Recording};
+    use recording::{MessageDefinitions, Recording};
 
-    fn topic(name: &str) -> Topic {
-        Topic {
-            name: name.to_owned(),
-            type_name: "std_msgs/msg/Bool".to_owned(),
-            serialization_format: "cdr".to_owned(),
-            offered_qos: Vec::new(),
-            definition: MessageDefinition::default(),
-        }
+    fn start(directory: &std::path::Path) -> (Storage, Receiver<String>) {
+        let writer = Writer::create(directory, "").unwrap();
+        let nowhere = MessageDefinitions::new(Vec::new());
+        let (warnings, warned) = bounded(10);
+        let warn = move |text: &str| warnings.send(text.to_owned()).unwrap();
+        (Storage::start(writer, Box::new(move |name| nowhere.get(name)), Box::new(warn)).unwrap(), warned)
     }
 
     #[test]
     fn everything_is_stored_in_order_although_the_queue_overflows() {
         let directory = std::env::temp_dir().join(format!("bag_replay_storage_{}", std::process::id()));
-        let mut storage = Storage::start(Writer::create(&directory, "").unwrap()).unwrap();
-        let number = storage.add_topic(topic("/a"));
+        let (mut storage, warned) = start(&directory);
+        let number = storage.add_topic("/a", "std_msgs/msg/Bool", Vec::new());
         let count = 2 * QUEUE_MESSAGES as u64 + 10;
         for i in 0..count {
             storage.store(number, i, i.to_le_bytes().to_vec());
         }
         assert_eq!(storage.messages(), count);
         let written = storage.finish().unwrap();
+        assert!(warned.recv().unwrap().contains("/a is recorded without the text of its type"));
         let recording = Recording::open(&directory).unwrap();
         let data: Vec<_> = recording.messages().map(|message| message.unwrap().data).collect();
         std::fs::remove_dir_all(&directory).unwrap();
@@ -143,9 +169,9 @@ mod tests {
     #[test]
     fn a_failure_to_write_is_noticed_and_told() {
         let directory = std::env::temp_dir().join(format!("bag_replay_failure_{}", std::process::id()));
-        let mut storage = Storage::start(Writer::create(&directory, "").unwrap()).unwrap();
-        storage.add_topic(topic("/a"));
-        storage.add_topic(topic("/a"));
+        let (mut storage, _warned) = start(&directory);
+        storage.add_topic("/a", "std_msgs/msg/Bool", Vec::new());
+        storage.add_topic("/a", "std_msgs/msg/Bool", Vec::new());
         let error = storage.finish().unwrap_err().to_string();
         std::fs::remove_dir_all(&directory).unwrap();
         assert!(error.contains("/a"), "{error}");

@@ -2,7 +2,6 @@
 
 use node_kit::{Inbox, NodeKit};
 use r2r::QosProfile;
-use recording::{MessageDefinitions, Topic};
 
 use crate::graph::{self, Request};
 use crate::storage::Storage;
@@ -55,12 +54,7 @@ impl Subscription {
     }
 
     /// Looks who publishes the topic now: subscribes, or asks for less when a publisher offers less.
-    pub(crate) fn look(
-        &mut self,
-        kit: &mut NodeKit,
-        storage: &mut Storage,
-        definitions: &MessageDefinitions,
-    ) -> anyhow::Result<()> {
+    pub(crate) fn look(&mut self, kit: &mut NodeKit, storage: &mut Storage) -> anyhow::Result<()> {
         if self.given_up {
             return Ok(());
         }
@@ -94,18 +88,12 @@ impl Subscription {
                 }
             }
         }
-        self.announce(kit, storage, definitions, &offers);
+        self.announce(storage, &offers);
         Ok(())
     }
 
     /// Hands every message that waits to `storage`. `now_ns` is the time of receipt, ns since 1970.
-    pub(crate) fn drain(
-        &mut self,
-        kit: &mut NodeKit,
-        storage: &mut Storage,
-        definitions: &MessageDefinitions,
-        now_ns: u64,
-    ) -> bool {
+    pub(crate) fn drain(&mut self, kit: &mut NodeKit, storage: &mut Storage, now_ns: u64) -> bool {
         let mut any = false;
         while let Some(data) = self.inbox.as_mut().and_then(Inbox::take) {
             any = true;
@@ -119,7 +107,7 @@ impl Subscription {
                         .into_iter()
                         .map(|publisher| publisher.qos_profile)
                         .collect();
-                    self.announce(kit, storage, definitions, &offers)
+                    self.announce(storage, &offers)
                 }
             };
             storage.store(stored_as, now_ns, data);
@@ -128,29 +116,10 @@ impl Subscription {
     }
 
     /// Adds the topic to the recording with what its publishers offer.
-    fn announce(
-        &mut self,
-        kit: &NodeKit,
-        storage: &mut Storage,
-        definitions: &MessageDefinitions,
-        offers: &[QosProfile],
-    ) -> usize {
-        if let Some(number) = self.stored_as {
-            return number;
-        }
-        let type_name = self.type_name.clone().unwrap_or_default();
-        let definition = definitions.get(&type_name).unwrap_or_else(|error| {
-            kit.log().warn(&format!("{} is recorded without the text of its type: {error}", self.name));
-            Default::default()
-        });
-        let number = storage.add_topic(Topic {
-            name: self.name.clone(),
-            type_name,
-            serialization_format: "cdr".to_owned(),
-            offered_qos: offers.iter().map(graph::recorded).collect(),
-            definition,
-        });
-        self.stored_as = Some(number);
-        number
+    fn announce(&mut self, storage: &mut Storage, offers: &[QosProfile]) -> usize {
+        *self.stored_as.get_or_insert_with(|| {
+            let offered_qos = offers.iter().map(graph::recorded).collect();
+            storage.add_topic(&self.name, self.type_name.as_deref().unwrap_or_default(), offered_qos)
+        })
     }
 }

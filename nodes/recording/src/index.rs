@@ -30,6 +30,8 @@ pub(crate) struct Block {
     pub(crate) records: Range<u64>,
     /// CRC-32 of the records; 0 where the writer computed none.
     pub(crate) crc: u32,
+    /// Not a chunk: more messages may join it.
+    is_row: bool,
 }
 
 /// The text of a type as the file has it.
@@ -190,15 +192,22 @@ impl FileIndex {
         }
         let time = head.log_time_ns;
         match self.blocks.last_mut() {
-            // Chunks end with the end of their record, so only a row of loose messages can end exactly here.
-            Some(last) if last.records.end == offset && offset - last.records.start < LOOSE_BLOCK_BYTES => {
+            Some(last)
+                if last.is_row
+                    && last.records.end == offset
+                    && offset - last.records.start < LOOSE_BLOCK_BYTES =>
+            {
                 last.records.end = content.end;
                 last.start_ns = last.start_ns.min(time);
                 last.end_ns = last.end_ns.max(time);
             }
-            _ => {
-                self.blocks.push(Block { start_ns: time, end_ns: time, records: offset..content.end, crc: 0 })
-            }
+            _ => self.blocks.push(Block {
+                start_ns: time,
+                end_ns: time,
+                records: offset..content.end,
+                crc: 0,
+                is_row: true,
+            }),
         }
         Ok(())
     }
@@ -268,7 +277,7 @@ fn chunk_block(file: &McapFile, place: &Place) -> Result<Option<Block>, Error> {
         return Err(Error::Unsupported { path: file.path().to_owned(), what });
     }
     let end = begin.checked_add(u64::from_le_bytes(*size)).filter(|end| *end <= content.end);
-    Ok(end.map(|end| Block { start_ns, end_ns, records: begin..end, crc }))
+    Ok(end.map(|end| Block { start_ns, end_ns, records: begin..end, crc, is_row: false }))
 }
 
 impl Block {

@@ -38,7 +38,8 @@ pub(crate) struct Merge<'a> {
 impl<'a> Merge<'a> {
     pub(crate) fn new(files: &'a [McapFile], blocks: &'a [Located]) -> Self {
         let mut waiting: Vec<_> = blocks.iter().collect();
-        waiting.sort_by_key(|located| (located.block.start_ns, located.file, located.block.records.start));
+        // Stable: blocks that begin at the same time stay in the order of the files.
+        waiting.sort_by_key(|located| located.block.start_ns);
         Self { files, waiting: waiting.into(), loaded: BinaryHeap::new(), damage: VecDeque::new() }
     }
 

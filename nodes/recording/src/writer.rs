@@ -13,7 +13,7 @@ use crate::metadata::{Metadata, TopicMetadata, TopicWithCount};
 use crate::qos;
 use crate::topic::Topic;
 
-/// A chunk goes to the file when it is this large ...
+/// A chunk goes to the file when it is this large (the encoder sees to that) ...
 const CHUNK_BYTES: u64 = 1 << 20;
 /// ... or its messages span this long: what a killed recorder loses.
 const CHUNK_SPAN_NS: u64 = 500_000_000;
@@ -31,8 +31,8 @@ pub struct Writer {
     topics: Vec<Channel>,
     /// First and last log time, ns.
     bounds_ns: Option<(u64, u64)>,
-    /// Log time of the first message in the open chunk and the bytes in it.
-    chunk: Option<(u64, u64)>,
+    /// Log time of the first message since the last flush.
+    unflushed_since_ns: Option<u64>,
 }
 
 /// A topic of a [`Writer`].
@@ -91,7 +91,7 @@ impl Writer {
             ros_distro: ros_distro.to_owned(),
             topics: Vec::new(),
             bounds_ns: None,
-            chunk: None,
+            unflushed_since_ns: None,
         };
         writer.flush()?;
         writer.metadata().save(&writer.directory)?;
@@ -135,7 +135,7 @@ impl Writer {
     /// # Errors
     /// When the file cannot be written; nothing more can then be recorded.
     pub fn write(&mut self, topic: TopicId, log_time_ns: u64, data: &[u8]) -> Result<(), Error> {
-        if self.chunk.is_some_and(|chunk| is_full(chunk, log_time_ns)) {
+        if self.unflushed_since_ns.is_some_and(|first_ns| log_time_ns.abs_diff(first_ns) >= CHUNK_SPAN_NS) {
             self.flush()?;
         }
         // A `TopicId` comes from `add_topic` alone, so that only one of another writer could miss.
@@ -152,8 +152,7 @@ impl Writer {
         };
         self.mcap.write_to_known_channel(&header, data).map_err(Error::write(&self.file_path))?;
         channel.message_count += 1;
-        let (first, bytes) = self.chunk.unwrap_or((log_time_ns, 0));
-        self.chunk = Some((first, bytes + data.len() as u64));
+        self.unflushed_since_ns.get_or_insert(log_time_ns);
         let (start, end) = self.bounds_ns.unwrap_or((log_time_ns, log_time_ns));
         self.bounds_ns = Some((start.min(log_time_ns), end.max(log_time_ns)));
         Ok(())
@@ -164,7 +163,7 @@ impl Writer {
     /// # Errors
     /// When the file cannot be written.
     pub fn flush(&mut self) -> Result<(), Error> {
-        self.chunk = None;
+        self.unflushed_since_ns = None;
         self.mcap.flush().map_err(Error::write(&self.file_path))
     }
 
@@ -205,9 +204,4 @@ impl Writer {
         });
         Metadata::of_one_file(&self.file_name, self.bounds_ns, topics.collect(), &self.ros_distro)
     }
-}
-
-/// Whether the open chunk (log time of its first message, bytes in it) is to be written before a message of `log_time_ns`.
-fn is_full((first_ns, bytes): (u64, u64), log_time_ns: u64) -> bool {
-    bytes >= CHUNK_BYTES || log_time_ns.abs_diff(first_ns) >= CHUNK_SPAN_NS
 }

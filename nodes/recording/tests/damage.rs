@@ -87,6 +87,45 @@ fn a_broken_summary_costs_nothing() {
 }
 
 #[test]
+fn a_summary_that_is_wrong_is_not_believed() {
+    let bytes = whole_file();
+    let topics = |bytes: &[u8]| opened(bytes).unwrap().topics().to_vec();
+    let intact = topics(&bytes);
+    // The name of the topic in the summary, which then no longer has its checksum.
+    let name = bytes.windows(5).rposition(|window| window == b"/pose").unwrap();
+    let mut renamed = bytes.clone();
+    renamed[name + 1] = b'n';
+    assert_eq!(topics(&renamed), intact);
+    // A summary without checksum that says of itself that it is not complete: three channels, and one is there.
+    let mut incomplete = bytes.clone();
+    let footer = bytes.len() - 8 - 20;
+    incomplete[footer + 16..footer + 20].fill(0);
+    let summary = u64::from_le_bytes(bytes[footer..footer + 8].try_into().unwrap()) as usize;
+    let mut at = summary;
+    while bytes[at] != mcap::records::op::STATISTICS {
+        at += 9 + u64::from_le_bytes(bytes[at + 1..at + 9].try_into().unwrap()) as usize;
+    }
+    incomplete[at + 9 + 10] = 3;
+    assert_eq!(topics(&incomplete), intact);
+}
+
+#[test]
+fn a_file_cut_anywhere_opens_and_has_every_message_of_the_chunks_before_the_cut() {
+    let bytes = whole_file();
+    let chunk = first_chunk(&bytes);
+    let chunk_end = chunk + 9 + u64::from_le_bytes(bytes[chunk + 1..chunk + 9].try_into().unwrap()) as usize;
+    let in_first = read(&opened(&bytes[..chunk_end]).unwrap()).0.len();
+    assert!(in_first > 400, "{in_first}");
+    let cuts = (chunk..chunk + 40).map(|cut| (cut, 0)).chain([(chunk_end - 1, 0)]);
+    for (cut, messages) in cuts.chain((chunk_end..chunk_end + 40).map(|cut| (cut, in_first))) {
+        let recording = opened(&bytes[..cut]).unwrap();
+        assert_eq!(recording.damage().len(), 1, "cut at {cut}: {:?}", recording.damage());
+        let (found, errors) = read(&recording);
+        assert_eq!((found.len(), errors.len()), (messages, 0), "cut at {cut}");
+    }
+}
+
+#[test]
 fn what_is_no_recording_is_refused_with_its_name() {
     let directory = tempfile::tempdir().unwrap();
     let at = |name: &str| directory.path().join(name);

@@ -4,6 +4,7 @@
 mod common;
 
 use common::*;
+use proptest::prelude::*;
 use recording::cdr::{decode, encode};
 use recording::messages::PoseStamped;
 use recording::{Durability, Error, Qos, Recording, Writer};
@@ -24,6 +25,8 @@ fn every_message_comes_back_in_order_over_many_chunks() {
         assert_eq!(decode::<PoseStamped>(&message.data).unwrap(), pose(number));
     }
     assert_eq!(recording.log_time_bounds_ns(), Some((START_NS, log_time_ns(4999))));
+    let metadata = std::fs::read_to_string(path.join("metadata.yaml")).unwrap();
+    assert!(metadata.contains("nanoseconds: 4999000000"), "{metadata}");
     assert_eq!(recording.topics()[0].message_count, 5000);
 }
 
@@ -107,49 +110,121 @@ fn a_bare_file_and_a_directory_without_metadata_read_the_same() {
 }
 
 #[test]
-fn split_files_are_one_recording_with_one_topic() {
+fn split_files_are_one_recording_with_one_topic_in_the_order_of_their_numbers() {
     let directory = tempfile::tempdir().unwrap();
     let joined = directory.path().join("joined");
     std::fs::create_dir(&joined).unwrap();
-    // Twelve parts, so that the order of the names is not the order of the letters.
+    // Twelve parts, so that the order of the numbers is not that of the letters; each begins when the last one ends.
     for part in 0..12_u64 {
         let path = directory.path().join("part");
         let mut writer = Writer::create(&path, "").unwrap();
         let topic = writer.add_topic(topic("/pose")).unwrap();
-        write(&mut writer, topic, part * 10..(part + 1) * 10);
+        write(&mut writer, topic, part * 10..part * 10 + 11);
         writer.close().unwrap();
         std::fs::rename(path.join("part_0.mcap"), joined.join(format!("joined_{part}.mcap"))).unwrap();
         std::fs::remove_dir_all(path).unwrap();
     }
     let recording = Recording::open(&joined).unwrap();
     assert_eq!(recording.topics().len(), 1);
-    assert_eq!(recording.topics()[0].message_count, 120);
-    let times: Vec<_> = read(&recording).0.iter().map(|message| message.log_time_ns).collect();
-    assert_eq!(times, (0..120).map(log_time_ns).collect::<Vec<_>>());
+    assert_eq!(recording.topics()[0].message_count, 132);
+    let found: Vec<_> =
+        read(&recording).0.iter().map(|message| (message.log_time_ns, message.sequence)).collect();
+    let part = |part: u64| (0..11).map(move |i| (log_time_ns(part * 10 + i), i as u32 + 1));
+    assert_eq!(found, (0..12).flat_map(part).collect::<Vec<_>>());
+}
+
+/// A file in memory with messages of these times, in chunks or not, and neither indexes nor a summary.
+fn plain_file(chunks: bool, times_ns: &[&[u64]]) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let options = mcap::WriteOptions::new().use_chunks(chunks).compression(None).emit_message_indexes(false);
+    let mut writer =
+        options.emit_summary_records(false).emit_summary_offsets(false).create(&mut bytes).unwrap();
+    let schema = writer.add_schema("geometry_msgs/msg/PoseStamped", "ros2msg", b"").unwrap();
+    let channel_id = writer.add_channel(schema, "/pose", "cdr", &Default::default()).unwrap();
+    for (number, row) in times_ns.iter().enumerate() {
+        for &log_time in *row {
+            let header =
+                mcap::records::MessageHeader { channel_id, sequence: 0, log_time, publish_time: log_time };
+            writer.write_to_known_channel(&header, &encode(&pose(log_time))).unwrap();
+        }
+        // Something between two rows.
+        writer.add_channel(schema, &format!("/other_{number}"), "cdr", &Default::default()).unwrap();
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    bytes.into_inner()
+}
+
+fn times_in(bytes: &[u8]) -> Vec<u64> {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("plain.mcap");
+    std::fs::write(&path, bytes).unwrap();
+    let recording = Recording::open(&path).unwrap();
+    let (messages, errors) = read(&recording);
+    assert!(errors.is_empty(), "{errors:?}");
+    assert_eq!(recording.topics()[0].message_count, messages.len() as u64);
+    for message in &messages {
+        assert_eq!(decode::<PoseStamped>(&message.data).unwrap(), pose(message.log_time_ns));
+    }
+    messages.iter().map(|message| message.log_time_ns).collect()
 }
 
 #[test]
-fn messages_outside_of_chunks_are_read_too() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("loose.mcap");
-    let mut writer =
-        mcap::WriteOptions::new().use_chunks(false).create(std::fs::File::create(&path).unwrap()).unwrap();
-    let schema = writer.add_schema("geometry_msgs/msg/PoseStamped", "ros2msg", b"").unwrap();
-    let channel = writer.add_channel(schema, "/pose", "cdr", &Default::default()).unwrap();
-    for number in 0..100 {
-        let time = log_time_ns(number);
-        let header = mcap::records::MessageHeader {
-            channel_id: channel,
-            sequence: 0,
-            log_time: time,
-            publish_time: time,
-        };
-        writer.write_to_known_channel(&header, &encode(&pose(number))).unwrap();
+fn messages_outside_of_chunks_are_read_in_order_of_time_too() {
+    assert_eq!(times_in(&plain_file(false, &[&[5, 1], &[3, 2], &[4]])), [1, 2, 3, 4, 5]);
+    assert_eq!(times_in(&plain_file(true, &[&[5, 1], &[3, 2], &[4]])), [1, 2, 3, 4, 5]);
+}
+
+#[test]
+fn messages_right_behind_a_chunk_are_not_taken_for_part_of_it() {
+    let record_end = |bytes: &[u8], at: usize| {
+        at + 9 + u64::from_le_bytes(bytes[at + 1..at + 9].try_into().unwrap()) as usize
+    };
+    let end_of_first = |bytes: &[u8], opcode: u8| {
+        let mut at = mcap::MAGIC.len();
+        while bytes[at] != opcode {
+            at = record_end(bytes, at);
+        }
+        (at, record_end(bytes, at))
+    };
+    let chunked = plain_file(true, &[&[1, 3]]);
+    let loose = plain_file(false, &[&[2]]);
+    let (_, chunk_end) = end_of_first(&chunked, mcap::records::op::CHUNK);
+    let (message, message_end) = end_of_first(&loose, mcap::records::op::MESSAGE);
+    let both: Vec<_> = [&chunked[..chunk_end], &loose[message..message_end], &chunked[chunk_end..]].concat();
+    assert_eq!(times_in(&both), [1, 2, 3]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, ..ProptestConfig::default() })]
+
+    #[test]
+    fn reading_is_a_stable_sort_by_time_whatever_the_times_and_chunks(
+        messages in proptest::collection::vec((0..40_u64, 0..3_usize, prop::bool::weighted(0.1)), 0..200),
+    ) {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("session");
+        let mut writer = Writer::create(&path, "").unwrap();
+        let topics = ["/a", "/b", "/c"].map(|name| writer.add_topic(topic(name)).unwrap());
+        for (number, (time, topic, ends_chunk)) in (0_u32..).zip(&messages) {
+            writer.write(topics[*topic], *time, &number.to_le_bytes()).unwrap();
+            if *ends_chunk {
+                writer.flush().unwrap();
+            }
+        }
+        writer.close().unwrap();
+        let mut expected: Vec<_> =
+            (0_u32..).zip(&messages).map(|(number, (time, topic, _))| (*time, *topic, number)).collect();
+        expected.sort_by_key(|(time, ..)| *time);
+        let (read, errors) = read(&Recording::open(&path).unwrap());
+        prop_assert!(errors.is_empty());
+        let found: Vec<_> = read
+            .iter()
+            .map(|message| {
+                let number = u32::from_le_bytes(message.data[..].try_into().unwrap());
+                (message.log_time_ns, message.topic, number)
+            })
+            .collect();
+        prop_assert_eq!(found, expected);
     }
-    writer.finish().unwrap();
-    let recording = Recording::open(&path).unwrap();
-    assert_eq!(recording.topics()[0].message_count, 100);
-    let messages = read(&recording).0;
-    assert_eq!(messages.len(), 100);
-    assert_eq!(decode::<PoseStamped>(&messages[99].data).unwrap(), pose(99));
 }
