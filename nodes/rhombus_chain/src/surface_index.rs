@@ -5,7 +5,7 @@ mod traverse;
 
 use glam::DVec3;
 
-use crate::mesh::{SurfaceMesh, SurfacePoint};
+use crate::mesh::{SurfaceMesh, SurfacePoint, is_usable};
 
 /// Children of a node, and triangles of a leaf, at most.
 const WIDTH: usize = 4;
@@ -46,12 +46,13 @@ impl SurfaceIndex {
 
     /// The surface point closest to `point` and its distance in metres, among those at most `within_m` away.
     ///
-    /// `mesh` is the surface the index was made of. Of several equally close points one is returned, always the same.
+    /// `mesh` is the surface the index was made of. `None` also for a point that is not finite or more than 1e6 m from the
+    /// origin. Of several equally close points one is returned, always the same.
     /// Real-time safe: bounded work, no allocation. The work grows with the number of triangles about as close as the
     /// closest one: all of them for the centre of a sphere.
     #[must_use]
     pub fn closest(&self, mesh: &SurfaceMesh, point: DVec3, within_m: f64) -> Option<(SurfacePoint, f64)> {
-        traverse::closest(self, mesh, point, within_m)
+        if is_usable(point) { traverse::closest(self, mesh, point, within_m) } else { None }
     }
 
     /// Whether `point` is inside the body. Real-time safe. Points on the surface may count as either.

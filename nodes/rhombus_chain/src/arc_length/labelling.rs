@@ -67,9 +67,9 @@ impl Labelling {
         for after in &fan[1..] {
             let after_label = labels.read(after.to);
             let known = label.arc_m;
-            let mut best = known;
-            if edge.may_shorten(known, arc_m) {
-                best = best.min(arc_m + edge.length_m);
+            // Most of the vertices that are nearer can be told at once to stay as they are.
+            if known > arc_m || edge.may_shorten(known, arc_m) {
+                let mut best = (arc_m + edge.length_m).min(known);
                 if before_label.is_settled {
                     let lengths = [before.length_m, edge.length_m];
                     best = across([arc_m, before_label.arc_m], lengths, before.angle, best);
@@ -78,9 +78,10 @@ impl Labelling {
                     let lengths = [after.length_m, edge.length_m];
                     best = across([arc_m, after_label.arc_m], lengths, edge.angle, best);
                 }
-            }
-            if best < known * SHORTER && (known < f64::INFINITY || best < table.horizon_m(edge.to, limit_m)) {
-                labels.shorten(edge.to, best);
+                let is_new = known == f64::INFINITY;
+                if best < known * SHORTER && !(is_new && best >= table.horizon_m(edge.to, limit_m)) {
+                    labels.shorten(edge.to, best);
+                }
             }
             (before, before_label) = (edge, label);
             (edge, label) = (after, after_label);

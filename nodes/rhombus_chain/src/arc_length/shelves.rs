@@ -35,7 +35,7 @@ impl Shelves {
     /// Puts `entry` on its shelf; returns the entry that is now behind it.
     #[inline]
     pub(super) fn push(&mut self, entry: u32, key_m: f64) -> u32 {
-        let shelf = ((key_m * self.per_m) as u64).max(self.present);
+        let shelf = u64::from((key_m * self.per_m) as u32).max(self.present);
         self.waiting += 1;
         std::mem::replace(&mut self.first[shelf as usize % SHELVES], entry)
     }

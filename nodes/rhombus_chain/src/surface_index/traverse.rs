@@ -55,7 +55,8 @@ pub(super) fn closest(
         let distances = node.squared_distances(low, high);
         let first = waiting;
         for (k, &distance_squared) in distances.iter().enumerate() {
-            if f64::from(distance_squared) <= best_squared {
+            // Infinite: there is no such child.
+            if f64::from(distance_squared) <= best_squared && distance_squared < f32::INFINITY {
                 // Nearest last, so that it is looked at next.
                 let mut place = waiting;
                 while place > first && stack[place - 1].distance_squared < distance_squared {

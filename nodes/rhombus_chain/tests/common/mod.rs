@@ -11,7 +11,7 @@ use rhombus_chain::{
 };
 
 /// Sphere from a subdivided icosahedron: `20 * 4^subdivisions` faces.
-pub fn icosphere(radius: f64, subdivisions: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+pub(crate) fn icosphere(radius: f64, subdivisions: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let phi = 0.5 * (1.0 + 5.0f64.sqrt());
     let mut vertices: Vec<DVec3> = [
         [-1.0, phi, 0.0],
@@ -71,7 +71,7 @@ pub fn icosphere(radius: f64, subdivisions: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) 
 }
 
 /// A liver-like body of about 0.2 m: an ellipsoid with a thin lobe and bumps of some centimetres.
-pub fn bumpy(subdivisions: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+pub(crate) fn bumpy(subdivisions: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let (vertices, triangles) = icosphere(1.0, subdivisions);
     let bump = |p: DVec3| {
         let thin = 1.0 - 0.55 * (0.5 + 0.5 * p.x);
@@ -84,7 +84,7 @@ pub fn bumpy(subdivisions: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
 }
 
 /// A block from `-size/2` to `size/2` with `n` squares along each edge of each side.
-pub fn block(size: DVec3, n: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+pub(crate) fn block(size: DVec3, n: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut vertices = Vec::new();
     let mut numbers = BTreeMap::new();
     let mut triangles = Vec::new();
@@ -114,12 +114,12 @@ pub fn block(size: DVec3, n: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (vertices, triangles)
 }
 
-pub fn body((vertices, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> Body {
+pub(crate) fn body((vertices, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> Body {
     Body::new(SurfaceMesh::new(vertices, triangles).expect("a closed surface"))
 }
 
 /// `chains` chains whose fields reach different distances.
-pub fn law(chains: usize) -> ContactLaw {
+pub(crate) fn law(chains: usize) -> ContactLaw {
     let parameters: Vec<ChainParameters> = (0..chains)
         .map(|p| ChainParameters {
             rod_length_m: 0.004 + 0.002 * p as f64,
@@ -136,24 +136,24 @@ pub fn law(chains: usize) -> ContactLaw {
     ContactLaw::new(Formulation::Energy, &parameters).expect("an acceptable law")
 }
 
-pub fn surface(expansion: f64, spread: Spread) -> SurfaceParameters {
+pub(crate) fn surface(expansion: f64, spread: Spread) -> SurfaceParameters {
     SurfaceParameters { expansion, spread, ..SurfaceParameters::default() }
 }
 
 /// Two chains, a probe of 5 mm radius, geodesic spread, no expansion.
-pub fn tissue() -> Tissue {
+pub(crate) fn tissue() -> Tissue {
     tissue_with(2, surface(0.0, Spread::Geodesic))
 }
 
-pub fn tissue_with(chains: usize, surface: SurfaceParameters) -> Tissue {
+pub(crate) fn tissue_with(chains: usize, surface: SurfaceParameters) -> Tissue {
     Tissue::new(law(chains), surface, 0.005, 0.5).expect("acceptable settings")
 }
 
 /// A sequence of numbers in 0..1 that is the same in every run.
-pub struct Random(pub u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    pub fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         // SplitMix64 (Steele, Lea, Flood 2014).
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
@@ -162,12 +162,12 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    pub fn below(&mut self, count: usize) -> usize {
+    pub(crate) fn below(&mut self, count: usize) -> usize {
         (self.unit() * count as f64) as usize
     }
 
     /// Uniform over the unit sphere.
-    pub fn direction(&mut self) -> DVec3 {
+    pub(crate) fn direction(&mut self) -> DVec3 {
         loop {
             let p = DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0;
             if (0.01..1.0).contains(&p.length_squared()) {
@@ -177,7 +177,7 @@ impl Random {
     }
 
     /// Somewhere on a face drawn at random.
-    pub fn surface_point(&mut self, mesh: &SurfaceMesh) -> SurfacePoint {
+    pub(crate) fn surface_point(&mut self, mesh: &SurfaceMesh) -> SurfacePoint {
         let face = self.below(mesh.triangles().len()) as u32;
         let (mut u, mut v) = (self.unit(), self.unit());
         if u + v > 1.0 {
