@@ -1,6 +1,7 @@
 """The moment worth a picture: the markers, the rest mesh and the contact when the probe is deepest (or pulls most).
 
-From a live session (rclpy) or from a recording that holds `markers`, `body_mesh`, `contact_state` and `/tf_static`.
+From a live session (rclpy), which may be a replay, or from a recording that holds `body_mesh`, `contact_state`,
+`/tf_static` and also `markers`, which a recorder leaves out unless `recording.topics` names them.
 """
 
 import time
@@ -60,7 +61,8 @@ class Recorder:
 
     def hear_transforms(self, message):
         for each in message.transforms:
-            self.transforms[each.child_frame_id] = (each.header.frame_id, matrix(each.transform.translation, each.transform.rotation))
+            parent_from_child = matrix(each.transform.translation, each.transform.rotation)
+            self.transforms[each.child_frame_id] = (each.header.frame_id, parent_from_child)
 
     def root_from(self, frame):
         """4x4 transform from a frame to the root of its tree."""

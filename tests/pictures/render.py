@@ -100,18 +100,24 @@ def view_of_contact(normal, body_points, elevation):
     return forward, normal
 
 
-def picture(camera, patches, see_through):
-    """sRGB image with alpha; `see_through` patches are blended over the others."""
-    buffers = draw(camera, patches)
-    colour, alpha = shade(camera, buffers, patches)
-    for patch in see_through:
-        glass = draw(camera, [patch])
-        nearer = glass.depth < buffers.depth
-        facing = numpy.clip(glass.normal @ -camera.forward, 0, 1)
-        opacity = numpy.where(nearer, 0.30 + 0.55 * (1 - facing) ** 2, 0)[..., None]
-        light = unit(-0.55 * camera.right + 0.65 * camera.up - 0.75 * camera.forward)
-        glow = 0.55 + 0.45 * numpy.clip(glass.normal @ light, 0, 1) + 0.8 * numpy.clip(glass.normal @ unit(light - camera.forward), 0, 1) ** 80
-        colour = colour * (1 - opacity) + glass.colour * glow[..., None] * opacity
+def picture(camera, solid, hidden=(), glass=()):
+    """Linear RGB and coverage. Of `hidden` patches, which must be solid too, what lies below the surface shines
+    through; `glass` patches are blended over everything behind them."""
+    buffers = draw(camera, solid)
+    colour, alpha = shade(camera, buffers, solid)
+    light = unit(-0.55 * camera.right + 0.65 * camera.up - 0.75 * camera.forward)
+    if hidden:
+        below = draw(camera, hidden)
+        opacity = numpy.where(numpy.isfinite(below.depth) & (below.depth > buffers.depth + 1e-4), 0.38, 0)[..., None]
+        glow = 0.55 + 0.45 * numpy.clip(below.normal @ light, 0, 1)
+        colour = colour * (1 - opacity) + below.colour * glow[..., None] * opacity
+    for patch in glass:
+        pane = draw(camera, [patch])
+        facing = numpy.clip(pane.normal @ -camera.forward, 0, 1)
+        opacity = numpy.where(pane.depth < buffers.depth, 0.30 + 0.55 * (1 - facing) ** 2, 0)[..., None]
+        highlight = numpy.clip(pane.normal @ unit(light - camera.forward), 0, 1) ** 80
+        glow = 0.55 + 0.45 * numpy.clip(pane.normal @ light, 0, 1) + 0.8 * highlight
+        colour = colour * (1 - opacity) + pane.colour * glow[..., None] * opacity
         alpha = numpy.maximum(alpha, opacity[..., 0])
     # `colour` is premultiplied where glass stands alone; elsewhere alpha is 0 or 1.
     return colour, alpha
@@ -186,9 +192,10 @@ def compose(scene, body_name):
     forward, up = view_of_contact(scene.normal, points, 0.50)
     centre = scene.proxy + scene.normal * 0.004
     close = Camera(centre, forward, up, CLOSE_UP_M / (width * SUPERSAMPLING), width * SUPERSAMPLING, height * SUPERSAMPLING)
-    solid = [scene.body, *scene.arrow(), *scene.chains(1.6 * SUPERSAMPLING * close.metres_per_pixel)]
+    chains = scene.chains(1.6 * SUPERSAMPLING * close.metres_per_pixel)
     probe = shapes.of_spheres(scene.probe_centre[None], scene.probe_radius, probe_colour)
-    sheet.paste(on_paper(*picture(close, solid, [probe])), (left, top))
+    solid = [scene.body, *scene.arrow(), *chains]
+    sheet.paste(on_paper(*picture(close, solid, hidden=chains, glass=[probe])), (left, top))
     canvas.rectangle([left, top, left + width, top + height], outline=FAINT, width=2)
 
     # The whole organ, with a frame around what the close-up shows.
@@ -202,7 +209,7 @@ def compose(scene, body_name):
     overview.metres_per_pixel = max((high - low) / (numpy.array([width - 60, height - 50]) * SUPERSAMPLING))
     off = (low + high) / 2 - numpy.array([overview.width, overview.height]) / 2
     overview.centre = overview.centre + overview.right * off[0] - overview.up * off[1]
-    sheet.paste(on_paper(*picture(overview, [scene.body, probe, *scene.arrow()], [])), (0, 0))
+    sheet.paste(on_paper(*picture(overview, [scene.body, probe, *scene.arrow()])), (0, 0))
 
     spot = overview.project(centre[None])[0, :2] / SUPERSAMPLING
     reach = CLOSE_UP_M / 2 / overview.metres_per_pixel / SUPERSAMPLING
@@ -216,7 +223,8 @@ def compose(scene, body_name):
     title = f"{body_name}, {verb} by {abs(depth_mm):.1f} mm"
     canvas.text((40, HEIGHT - 88), title, fill=INK, font=font(32), anchor="ls")
     vertices = len(scene.recorder.mesh.vertices)
-    canvas.text((40, HEIGHT - 50), f"{vertices} vertices, {abs(force_n):.2f} N on the hand (arrow)", fill=FAINT, font=font(22), anchor="ls")
+    line = f"{vertices} vertices, {abs(force_n):.2f} N on the hand (arrow)"
+    canvas.text((40, HEIGHT - 50), line, fill=FAINT, font=font(22), anchor="ls")
     scale_bar(canvas, overview, 660, HEIGHT - 60, 0.05)
     scale_bar(canvas, close, left + 28, top + CLOSE_UP[3] - 30, 0.01)
     legend(canvas, scene, left, HEIGHT - 62, 420, 18)

@@ -9,7 +9,8 @@ def of_triangles(points, colours):
     merged, index = numpy.unique(numpy.round(points, 9), axis=0, return_inverse=True)
     index = index.reshape(-1)
     triangles = index.reshape(-1, 3)
-    faces = numpy.cross(merged[triangles[:, 1]] - merged[triangles[:, 0]], merged[triangles[:, 2]] - merged[triangles[:, 0]])
+    a, b, c = (merged[triangles[:, corner]] for corner in range(3))
+    faces = numpy.cross(b - a, c - a)
     normals = numpy.zeros_like(merged)
     for corner in range(3):
         numpy.add.at(normals, triangles[:, corner], faces)
@@ -53,7 +54,8 @@ def lattice(points, normals, colour):
     triangles = []
     for row in range(rows - 1):
         low, high = row * columns, (row + 1) * columns
-        triangles += [numpy.stack([low + here, low + right, high + here], 1), numpy.stack([low + right, high + right, high + here], 1)]
+        triangles.append(numpy.stack([low + here, low + right, high + here], 1))
+        triangles.append(numpy.stack([low + right, high + right, high + here], 1))
     return {
         "points": points.reshape(-1, 3),
         "normals": normals.reshape(-1, 3),
