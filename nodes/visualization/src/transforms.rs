@@ -13,8 +13,6 @@ const PROBE: &str = "probe";
 /// Publishes `/tf_static` once and `/tf` for the probes.
 pub(crate) struct Transforms {
     moving: Publisher<TFMessage>,
-    // Held: a latched message lives as long as its publisher.
-    _fixed: Publisher<TFMessage>,
     probe_frames: Vec<String>,
 }
 
@@ -26,7 +24,7 @@ impl Transforms {
         let names = |device: &str, parameter: &str| kit.frame_id_of_device(device, parameter);
         fixed.publish(&fixed_transforms(scene, names))?;
         let probe_frames = scene.session.devices.iter().map(|device| names(device, PROBE)).collect();
-        Ok(Transforms { moving, _fixed: fixed, probe_frames })
+        Ok(Transforms { moving, probe_frames })
     }
 
     /// Whether anybody would hear where the probes are.

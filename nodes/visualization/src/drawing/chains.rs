@@ -25,11 +25,12 @@ const TANGENTIAL_SPRING: Colour = Colour::rgb(0.35, 0.80, 0.40);
 const ROD_WIDTH: f64 = 0.07;
 const SPRING_WIDTH: f64 = 0.03;
 const MASS_POINT_DIAMETER: f64 = 0.2;
-const SPRING_TURNS: u32 = 3;
 
 /// A marker has one width, and the units of a chain shrink: units are drawn in this many classes, each half as wide as
 /// the one before.
 const SIZES: usize = 4;
+/// Zigzags of a spring of each size: those of small units would be a smear, and most of the message.
+const SPRING_TURNS: [u32; SIZES] = [3, 3, 1, 0];
 /// Markers of one size: rods, springs, mass points.
 const PARTS: usize = 3;
 
@@ -64,11 +65,9 @@ pub(crate) fn chains(
         let chain = if count >= shapes.len() { i % shapes.len() } else { i * shapes.len() / count };
         let mut rod_m = shapes[chain].rod_length_m;
         for rhombus in row(&shapes[chain], &RowStart { contact_m, normal, direction }) {
-            sizes[size_of(rod_m / longest_m)].add(
-                &rhombus,
-                RODS[chain % RODS.len()],
-                normal.cross(direction),
-            );
+            let size = size_of(rod_m / longest_m);
+            let aside = normal.cross(direction);
+            sizes[size].add(&rhombus, RODS[chain % RODS.len()], aside, SPRING_TURNS[size]);
             rod_m *= shapes[chain].ratio;
         }
     }
@@ -106,11 +105,11 @@ struct Units {
 }
 
 impl Units {
-    fn add(&mut self, unit: &Rhombus, colour: Colour, aside: DVec3) {
+    fn add(&mut self, unit: &Rhombus, colour: Colour, aside: DVec3, turns: u32) {
         let Rhombus { tips, sides } = *unit;
         self.rods.add([tips[0], sides[0], tips[1], sides[1], tips[0]], colour);
-        self.springs.add(spring(sides[0], sides[1], aside, SPRING_TURNS), NORMAL_SPRING);
-        self.springs.add(spring(tips[0], tips[1], aside, SPRING_TURNS), TANGENTIAL_SPRING);
+        self.springs.add(spring(sides[0], sides[1], aside, turns), NORMAL_SPRING);
+        self.springs.add(spring(tips[0], tips[1], aside, turns), TANGENTIAL_SPRING);
         self.mass_points_m.extend([tips[1], sides[0], sides[1]]);
     }
 }
@@ -160,7 +159,8 @@ mod tests {
         let drawings = draw(&[shape(0.01)]);
         let units = 4 * 3;
         assert_eq!(points(&drawings, 0), 2 * 4 * units);
-        assert_eq!(points(&drawings, 1), 2 * 2 * 9 * units);
+        // Zigzags of nine pieces in the first two units, of five in the third.
+        assert_eq!(points(&drawings, 1), 4 * 2 * 2 * (9 + 9 + 5));
         assert_eq!(points(&drawings, 2), 1 + 3 * units);
         for drawing in drawings {
             assert!(drawing.points_m.iter().all(|point| is_drawable(*point)));
@@ -172,15 +172,18 @@ mod tests {
     fn smaller_units_are_drawn_with_thinner_lines() {
         // Rods of 1, 1/2 and 1/4: a marker has one width.
         let drawings = draw(&[shape(0.01)]);
-        let widths = drawings.iter().filter_map(|drawing| match drawing.shape {
-            Shape::Lines { width_m } => Some((drawing.key.id, width_m)),
-            _ => None,
-        });
-        let base = 2 * 12;
-        let thick = [(base, 7e-4), (base + 1, 3e-4)];
+        let widths: Vec<(i32, f64)> = drawings
+            .iter()
+            .filter_map(|drawing| match drawing.shape {
+                Shape::Lines { width_m } => Some((drawing.key.id - 2 * 12, width_m)),
+                _ => None,
+            })
+            .collect();
+        let (rod, spring) = (7e-4, 3e-4);
         let expected =
-            [0, 1, 2].map(|size| thick.map(|(id, width)| (id + 3 * size, width / f64::from(1 << size))));
-        for ((id, width), (expected_id, expected_width)) in widths.zip(expected.concat()) {
+            [(0, rod), (1, spring), (3, rod / 2.0), (4, spring / 2.0), (6, rod / 4.0), (7, spring / 4.0)];
+        assert_eq!(widths.len(), expected.len(), "{widths:?}");
+        for ((id, width), (expected_id, expected_width)) in widths.into_iter().zip(expected) {
             assert_eq!(id, expected_id);
             assert!((width - expected_width).abs() < 1e-15);
         }
