@@ -88,7 +88,7 @@ fn measure<'a>(body: &Body, tissue: &Tissue, samples: usize) -> Vec<Row<'a>> {
     let vertices = body.mesh().vertices().len();
     let walk = walk_on_surface(body.mesh(), samples * QUERIES_PER_SAMPLE, STEP_M);
     let radius_m = tissue.probe_radius_m();
-    let in_contact = pressed(&walk, radius_m, |i| PRESS_M * (0.6 + 0.4 * (i as f64 * 0.01).sin()));
+    let in_contact = pressed(&walk, radius_m, |i| PRESS_M * (0.6 + 0.4 * libm::sin(i as f64 * 0.01)));
     let above = pressed(&walk, radius_m, |_| -0.002);
     let row = |quantity, unit, touched, values| Row { vertices, quantity, unit, touched, values };
     let (touched, moving, resting) = surface_updates(body, tissue, &walk, samples);

@@ -114,7 +114,7 @@ fn press_and_slide(scene: &std::path::Path, count: usize) -> Result<Vec<DVec3>> 
     let body = scene.load_body()?.body;
     let device_from_body = scene.device.scene_from_device.inverse() * scene.body.scene_from_body;
     let walk = walk_on_surface(body.mesh(), count, 20e-6);
-    let depth_m = |i: usize| PRESS_M * (0.6 - 0.4 * (i as f64 * 1e-3 * std::f64::consts::TAU * 2.0).cos());
+    let depth_m = |i: usize| PRESS_M * (0.6 - 0.4 * libm::cos(i as f64 * 1e-3 * std::f64::consts::TAU * 2.0));
     let probes = pressed(&walk, tissue.probe_radius_m(), depth_m);
     Ok(probes
         .into_iter()
