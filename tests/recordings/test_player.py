@@ -137,6 +137,7 @@ def test_a_cut_recording_plays_as_far_as_it_goes_and_says_so(tmp_path, programs,
         ({"replay.path": "{folder}"}, ["metadata.yaml", ".mcap"]),
         ({"replay.path": "{folder}/unknown"}, ["/gadget", "elsewhere_msgs/msg/Gadget"]),
         ({"replay.path": "{folder}/unknown", "replay.topics": ["other"]}, ["nothing to play", "/gadget"]),
+        ({"replay.path": "{folder}/unknown", "replay.topics": ["/a-b"]}, ["replay.topics", "/a-b", "letters"]),
         ({"replay.path": "{folder}/unknown", "replay.rate": 0.0}, ["replay.rate", "0.01"]),
     ],
 )

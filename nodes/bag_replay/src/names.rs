@@ -64,6 +64,15 @@ pub(crate) fn absolute(namespace: &str, name: &str) -> String {
     }
 }
 
+/// Whether an absolute name is one that ROS accepts for a topic: words of letters, digits and `_` behind a `/` each.
+pub(crate) fn is_topic(name: &str) -> bool {
+    let is_word = |word: &str| {
+        word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+            && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+    };
+    name.strip_prefix('/').is_some_and(|words| words.split('/').all(is_word))
+}
+
 /// Name of a recording that got none: namespace, date and time of day (UTC), so that two sessions side by side and two
 /// sessions after each other differ.
 pub(crate) fn by_time(namespace: &str, now: SystemTime) -> String {
@@ -101,6 +110,16 @@ mod tests {
         assert_eq!(absolute("/", "measured_cp"), "/measured_cp");
         assert_eq!(absolute("/left", "gripper/measured_js"), "/left/gripper/measured_js");
         assert_eq!(absolute("/left", "/tf"), "/tf");
+    }
+
+    #[test]
+    fn a_topic_is_words_behind_slashes() {
+        for name in ["/tf", "/left/measured_cp", "/_hidden/a1"] {
+            assert!(is_topic(name), "{name:?}");
+        }
+        for name in ["tf", "/", "/a/", "//a", "/1a", "/white space", "/~/a", "/a-b"] {
+            assert!(!is_topic(name), "{name:?}");
+        }
     }
 
     #[test]

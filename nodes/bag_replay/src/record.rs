@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use node_kit::{Level, NodeKit, Status};
 use recording::{MessageDefinitions, Writer, Written};
 use serde_json::json;
@@ -111,8 +111,6 @@ fn subscriptions(kit: &mut NodeKit, settings: &RecordSettings) -> anyhow::Result
         subscriptions.push(Subscription::to_session_topic(kit, &topic.name, topic.type_name, &topic.qos)?);
     }
     for name in settings.topics.iter().filter(|name| known.iter().all(|topic| topic.name != **name)) {
-        let publishers = kit.node().get_publishers_info_by_topic(name, false);
-        publishers.with_context(|| format!("recording.topics: {name:?} is not the name of a topic"))?;
         subscriptions.push(Subscription::to_any_topic(name));
     }
     Ok(subscriptions)

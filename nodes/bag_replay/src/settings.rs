@@ -45,6 +45,11 @@ pub(crate) fn read(kit: &NodeKit) -> anyhow::Result<Settings> {
     let topics = |key: &str| -> anyhow::Result<Vec<String>> {
         let given = parameters.texts(key)?.iter().filter(|name| !name.is_empty());
         let mut names: Vec<_> = given.map(|name| names::absolute(namespace, name)).collect();
+        if let Some(wrong) = names.iter().find(|name| !names::is_topic(name)) {
+            bail!(
+                "{key}: {wrong:?} is not the name of a topic; accepted: letters, digits and '_' behind each '/'"
+            );
+        }
         names.sort();
         names.dedup();
         Ok(names)

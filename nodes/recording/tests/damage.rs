@@ -58,6 +58,20 @@ fn after_a_flush_a_killed_recorder_loses_nothing() {
 }
 
 #[test]
+fn a_killed_recorder_of_large_messages_loses_little_more_than_a_mebibyte() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    let mut writer = Writer::create(&path, "").unwrap();
+    let topic = writer.add_topic(topic("/large")).unwrap();
+    for number in 0..500 {
+        writer.write(topic, log_time_ns(0) + number, &[0; 10_000]).unwrap();
+    }
+    std::mem::forget(writer);
+    let found = read(&Recording::open(&path).unwrap()).0.len();
+    assert!(found >= 500 - 120, "{found}");
+}
+
+#[test]
 fn a_chunk_with_a_wrong_checksum_is_left_out_and_reading_goes_on_behind_it() {
     let mut bytes = whole_file();
     // The x of some pose in the second chunk: ten bytes into the payload of message 700.
