@@ -1,30 +1,72 @@
-//! The motor loop's queries never reach the allocator: one that does ends this test with a report.
-#![allow(clippy::expect_used, clippy::panic, reason = "a test whose case cannot be set up fails")]
+//! What runs while a device waits for its force allocates nothing.
 
-mod chains;
+mod common;
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc};
-use chains::TISSUE;
-use rhombus_chain::{ChainParameters, ContactLaw, ContactShape, Formulation, SurfaceParameters};
+use common::{Random, body, bumpy, surface, tissue_with};
+use glam::DVec3;
+use rhombus_chain::{ArcLengths, Interaction, Mode, Spread, SurfaceField};
 
 #[global_allocator]
-static ALLOCATOR: AllocDisabler = AllocDisabler;
+static GUARD: AllocDisabler = AllocDisabler;
 
 #[test]
-fn queries_of_law_and_field_allocate_nothing() {
-    for formulation in [Formulation::Published, Formulation::Energy] {
-        let quarters = [0.5, 0.7, 0.8, 0.9].map(|ratio| ChainParameters { ratio, weight: 0.25, ..TISSUE });
-        let law = ContactLaw::new(formulation, &quarters).expect("accepted");
-        let mut shape = ContactShape::new(&law, &SurfaceParameters::default()).expect("a valid surface");
-        assert_no_alloc(|| {
-            for depth_m in [-1e300, -0.01, 0.0, 0.004, 1.0, f64::NAN] {
-                let force_n = law.at_depth(depth_m).map_or(f64::INFINITY, |response| response.force_n);
-                let _ = law.depth_for_force(force_n);
-                let _ = law.chains()[0].response(depth_m);
-                let _ = shape.set_depth(&law, depth_m);
-                let _ = shape.displacement(shape.s_m(0.01), 0.01);
-                let _ = shape.displacement_at_ring(1.0);
+fn no_pose_and_no_surface_allocates_after_construction() {
+    let body = body(bumpy(4));
+    for spread in [Spread::Geodesic, Spread::Rings] {
+        for expansion in [0.0, 0.5] {
+            let tissue = tissue_with(3, surface(expansion, spread));
+            let (mut interaction, mut random) = (Interaction::new(), Random(1));
+            let mut field = SurfaceField::new(&body, &tissue);
+            let mut modes = [0; 3];
+            for k in 0..3000 {
+                let at = random.surface_point(body.mesh());
+                // From 13 mm above the surface to 7 mm below; every now and then a leap.
+                let probe =
+                    body.mesh().position(at) + body.mesh().normal(at) * (0.02 * random.unit() - 0.007);
+                let grasp = k % 100 > 60;
+                let step = assert_no_alloc(|| {
+                    let step = interaction.step(&body, &tissue, k * 1_000_000, probe, grasp);
+                    let force =
+                        step.map(|step| step.local_law.force_n(tissue.law(), probe)).unwrap_or_default();
+                    assert!(force.is_finite());
+                    step
+                })
+                .expect("an answer");
+                modes[step.mode as usize] += 1;
+                // The first impression of a kind of its own makes room for itself: a second one while a grasp fades.
+                if k % 20 == 0 && interaction.impressions().count() < 2 {
+                    assert_no_alloc(|| field.update(&body, &tissue, interaction.impressions()));
+                }
             }
+            assert!(
+                modes.iter().all(|count| *count > 100),
+                "{modes:?} of {:?}",
+                [Mode::None, Mode::Contact, Mode::Grasp]
+            );
+        }
+    }
+}
+
+#[test]
+fn no_refusal_and_no_query_of_the_index_or_the_arcs_allocates() {
+    let body = body(bumpy(4));
+    let tissue = tissue_with(1, surface(0.0, Spread::Geodesic));
+    let mut arcs = ArcLengths::new(body.mesh());
+    let mut interaction = Interaction::new();
+    let mut random = Random(2);
+    for _ in 0..200 {
+        let at = random.surface_point(body.mesh());
+        let p = body.mesh().position(at) * 0.9;
+        assert_no_alloc(|| {
+            assert!(body.index().closest(body.mesh(), p, f64::INFINITY).is_some());
+            assert!(body.index().encloses(body.mesh(), p * 0.5));
+            arcs.solve(body.mesh(), at, 1.0);
+            assert_eq!(arcs.iter().len(), body.mesh().vertices().len());
+            assert!(interaction.step(&body, &tissue, 0, DVec3::NAN, true).is_err());
+            assert!(interaction.step(&body, &tissue, 5, p, false).is_ok());
+            assert!(interaction.step(&body, &tissue, 4, p, false).is_err());
+            interaction.reset();
         });
     }
 }
