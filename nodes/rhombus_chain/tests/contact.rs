@@ -1,4 +1,5 @@
 //! Contact of a probe with a body: depth, force, memory, continuity, and what cannot shake it.
+#![allow(clippy::expect_used, reason = "a helper that cannot go on stops its test")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Holding the surface, pulling it, letting go.
+#![allow(clippy::expect_used, reason = "a helper that cannot go on stops its test")]
 
 mod common;
 

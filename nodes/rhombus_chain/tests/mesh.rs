@@ -1,4 +1,5 @@
 //! What counts as a body's surface, and what is measured on it.
+#![allow(clippy::expect_used, reason = "a helper that cannot go on stops its test")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! What runs while a device waits for its force allocates nothing.
+#![allow(clippy::expect_used, reason = "a helper that cannot go on stops its test")]
 
 mod common;
 

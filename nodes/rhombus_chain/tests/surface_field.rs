@@ -1,4 +1,5 @@
 //! How the surface moves: where, how far, how smoothly.
+#![allow(clippy::expect_used, reason = "a helper that cannot go on stops its test")]
 
 mod common;
 
