@@ -50,6 +50,7 @@ def test_launch_files_are_installed_and_name_only_what_is_installed(prefix, name
     for argument in root.iter("arg"):
         assert argument.get("description"), f"{name}: argument {argument.get('name')} has no description"
     names = {argument.get("name") for argument in root.iter("arg")}
+    names |= {variable.get("name") for variable in root.iter("let")}
     assert set(re.findall(r"\$\(var (\w+)\)", path.read_text())) <= names
     for node in root.iter("node"):
         if node.get("pkg") == "rhombus_haptics":

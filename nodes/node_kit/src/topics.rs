@@ -62,11 +62,11 @@ const fn latched(depth: usize) -> QosProfile {
 /// Pose of the device's handle: device to deformation.
 pub const MEASURED_CP: Topic<PoseStamped> = Topic::new("measured_cp", reliable(1000));
 /// Velocity of the device's handle: device.
-pub const MEASURED_CV: Topic<TwistStamped> = Topic::new("measured_cv", reliable(100));
+pub const MEASURED_CV: Topic<TwistStamped> = Topic::new("measured_cv", reliable(1000));
 /// Force that the motors were told to apply: device.
-pub const MEASURED_CF: Topic<WrenchStamped> = Topic::new("measured_cf", reliable(100));
+pub const MEASURED_CF: Topic<WrenchStamped> = Topic::new("measured_cf", reliable(1000));
 /// Opening of the gripper in position\[0\], rad: device to deformation.
-pub const GRIPPER_MEASURED_JS: Topic<JointState> = Topic::new("gripper/measured_js", reliable(100));
+pub const GRIPPER_MEASURED_JS: Topic<JointState> = Topic::new("gripper/measured_js", reliable(1000));
 /// Hold the surface while true: anyone to deformation.
 pub const GRASP: Topic<Bool> = Topic::new("grasp", reliable(10));
 /// Clutch in buttons\[0\] (0 released, 1 pressed): device to deformation.
