@@ -13,11 +13,12 @@ use windows::Windows;
 
 /// Arc lengths from a point of one surface, with the scratch memory to compute them.
 ///
-/// On a smooth mesh vertices are labelled outward from the point, each from two neighbours: within 5 % of the shortest way over
-/// the triangles, and quick. Where that could be worse, because corners as sharp as a cube's are as coarse as the mesh, windows
-/// are sent across the edges instead: exact, and five times slower. A fine mesh is labelled even so: windows become too many, and
-/// only the vertices right behind a sharp corner get arcs up to 13 % short. The choice depends on the mesh alone. Both ways, arcs
-/// depend continuously on the point.
+/// On a smooth mesh vertices are labelled outward from the point, each from two neighbours: within 5 % of the
+/// shortest way over the triangles, and quick. Where that could be worse, because corners as sharp as a
+/// cube's are as coarse as the mesh, windows are sent across the edges instead: exact, and five times slower.
+/// A fine mesh is labelled even so: windows become too many, and only the vertices right behind a sharp
+/// corner get arcs up to 13 % short. The choice depends on the mesh alone. Both ways, arcs depend
+/// continuously on the point.
 ///
 /// Made once for a surface. A query looks only at what is in reach.
 #[derive(Clone, Debug)]
@@ -25,7 +26,8 @@ pub struct ArcLengths {
     method: Method,
 }
 
-/// Vertices of a mesh up to which windows are used. Their number grows with the power 1.5 of the vertices in reach.
+/// Vertices of a mesh up to which windows are used. Their number grows with the power 1.5 of the vertices in
+/// reach.
 const WINDOWS_UP_TO: usize = 10_000;
 
 #[derive(Clone, Debug)]
@@ -47,10 +49,12 @@ impl ArcLengths {
         Self { method }
     }
 
-    /// Computes the arcs from `source` to all vertices nearer than `limit_m`. `mesh` is the surface this was made for.
+    /// Computes the arcs from `source` to all vertices nearer than `limit_m`. `mesh` is the surface this was
+    /// made for.
     ///
-    /// An arc below the limit does not depend on the limit; labelled ones right at the limit may, by up to 0.5 %. Nothing is allocated on a smooth mesh; on a rough one memory
-    /// grows until it has seen its largest query.
+    /// An arc below the limit does not depend on the limit; labelled ones right at the limit may, by up to
+    /// 0.5 %. Nothing is allocated on a smooth mesh; on a rough one memory grows until it has seen its
+    /// largest query.
     pub fn solve(&mut self, mesh: &SurfaceMesh, source: SurfacePoint, limit_m: f64) {
         match &mut self.method {
             Method::Labelling(labelling) => labelling.solve(mesh, source, limit_m),
@@ -58,7 +62,8 @@ impl ArcLengths {
         }
     }
 
-    /// Vertices nearer than the limit of the last query, in no particular order, and their arc lengths in metres.
+    /// Vertices nearer than the limit of the last query, in no particular order, and their arc lengths in
+    /// metres.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = (u32, f64)> + '_ {
         let known = match &self.method {
             Method::Labelling(labelling) => labelling.known(),

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 /// Barycentric coordinates of the point of triangle `corners` closest to `point`, and the squared distance.
 ///
-/// Coordinates of corners that do not take part are exactly zero, so a caller can tell face, edge and corner apart.
-/// Real-time safe. The regions are those of Ericson, *Real-Time Collision Detection* (2005), section 5.1.5.
+/// Coordinates of corners that do not take part are exactly zero, so a caller can tell face, edge and corner
+/// apart. Real-time safe. The regions are those of Ericson, *Real-Time Collision Detection* (2005), section
+/// 5.1.5.
 #[inline]
 pub(crate) fn closest_on_triangle(corners: [DVec3; 3], point: DVec3) -> (DVec3, f64) {
     let barycentric = closest_barycentric(corners, point);

@@ -1,4 +1,5 @@
-//! The bulge outside the boundary (MODEL section 4): part of the volume that a contact displaces comes out around it.
+//! The bulge outside the boundary (MODEL section 4): part of the volume that a contact displaces comes out
+//! around it.
 
 use glam::DVec3;
 
@@ -34,7 +35,8 @@ impl Expansion {
         self.displaced_m3 = 0.0;
     }
 
-    /// Takes note of a vertex of rest area `area_m2` at `s` (a ring number for rings) that is displaced by `normal_m`.
+    /// Takes note of a vertex of rest area `area_m2` at `s` (a ring number for rings) that is displaced by
+    /// `normal_m`.
     pub(crate) fn note(&mut self, shape: &ContactShape, spread: Spread, s: f64, normal_m: f64, area_m2: f64) {
         let bump = match spread {
             Spread::Geodesic => shape.bump(s),

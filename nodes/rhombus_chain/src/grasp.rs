@@ -36,8 +36,8 @@ impl Grasp {
         Self { at: proxy.at, position, normal: proxy.normal, anchor: probe, depth_m, since_ns: stamp_ns }
     }
 
-    /// The law of this grasp at a stamp: with r the probe's way since the gripper closed, depth -r.n, plus what remains of
-    /// the depth at which it closed; `-k_lat r_t` across.
+    /// The law of this grasp at a stamp: with r the probe's way since the gripper closed, depth -r.n, plus
+    /// what remains of the depth at which it closed; `-k_lat r_t` across.
     pub(crate) fn local_law(&self, tissue: &Tissue, stamp_ns: i64) -> LocalLaw {
         LocalLaw {
             mode: Mode::Grasp,
@@ -76,7 +76,8 @@ impl Fade {
         Self { force_n, impression, since_ns }
     }
 
-    /// Share of the force that whatever came after the release has by now; the rest belongs to the fading grasp.
+    /// Share of the force that whatever came after the release has by now; the rest belongs to the fading
+    /// grasp.
     pub(crate) fn successor_share(&self, stamp_ns: i64) -> f64 {
         ramp(self.since_ns, stamp_ns)
     }

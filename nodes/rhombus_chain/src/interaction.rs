@@ -12,8 +12,9 @@ use crate::tissue::Tissue;
 
 /// One device on one body.
 ///
-/// The state is plain data: clone it, compare it, keep it. What a step returns depends on this state and on the step's
-/// arguments alone, so equal states and equal inputs give equal bits.
+/// The state is plain data: clone it, compare it, keep it. What a step returns depends on this state and on
+/// the step's arguments alone, so equal states and equal inputs give equal bits. It belongs to one body:
+/// before it is used with another, [`reset`](Self::reset) it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Interaction {
     /// Stamp of the last pose.
@@ -100,13 +101,13 @@ impl Interaction {
 
     /// Answers one pose of the probe's centre, in metres in the body frame. Real-time safe.
     ///
-    /// `grasp` says whether the gripper is closed. What it closes on it holds: a grasp begins at the first pose with a
-    /// closed gripper after an open one, if that pose is in contact. A gripper that closes on air holds nothing until it opens
-    /// and closes again. A new interaction counts as open.
+    /// `grasp` says whether the gripper is closed. What it closes on it holds: a grasp begins at the first
+    /// pose with a closed gripper after an open one, if that pose is in contact. A gripper that closes on air
+    /// holds nothing until it opens and closes again. A new interaction counts as open.
     ///
     /// # Errors
-    /// A position that is not usable, a stamp before the last one. Nothing has changed then; a caller that lets the
-    /// force go to zero calls [`reset`](Self::reset).
+    /// A position that is not usable, a stamp before the last one. Nothing has changed then; a caller that
+    /// lets the force go to zero calls [`reset`](Self::reset).
     pub fn step(
         &mut self,
         body: &Body,
@@ -160,7 +161,8 @@ impl Interaction {
         }
     }
 
-    /// The contact of a probe that holds nothing: followed from the last one, or a new one at the closest point.
+    /// The contact of a probe that holds nothing, and its depth: followed from the last contact, from the
+    /// held point after a release, or a new one at the closest point.
     fn touch(&self, body: &Body, tissue: &Tissue, probe: DVec3) -> Option<(Proxy, f64)> {
         let radius_m = tissue.probe_radius_m();
         let follow = |from| {
@@ -222,8 +224,8 @@ impl Interaction {
     }
 }
 
-/// Where a probe that touched nothing begins to touch: the closest point of the surface, within the probe's radius, or at
-/// whatever distance when the probe's centre is already inside.
+/// Where a probe that touched nothing begins to touch: the closest point of the surface, within the probe's
+/// radius, or at whatever distance when the probe's centre is already inside.
 fn new_contact(body: &Body, radius_m: f64, probe: DVec3) -> Option<SurfacePoint> {
     let (mesh, index) = (body.mesh(), body.index());
     if index.is_farther_than(probe, radius_m) {
@@ -240,8 +242,8 @@ fn press(body: &Body, proxy: &Proxy, depth_m: f64) -> Impression {
     Impression { at: proxy.at, position, normal: proxy.normal, depth_m, lateral_m: DVec3::ZERO }
 }
 
-/// The tangent plane under the probe. Its anchor is taken below the probe, so that the plane is at the proxy's distance also
-/// where the proxy is not straight below.
+/// The tangent plane under the probe. Its anchor is taken below the probe, so that the plane is at the
+/// proxy's distance also where the proxy is not straight below.
 fn contact_law(tissue: &Tissue, proxy: &Proxy, probe: DVec3) -> LocalLaw {
     LocalLaw {
         mode: Mode::Contact,

@@ -18,13 +18,14 @@ pub enum Mode {
 
 /// The contact as the last pose left it: a plane and a law along its normal. Body frame.
 ///
-/// At the pose it was made from it gives the force of that [`Step`](crate::Step) to rounding, except for what remains of a
-/// grasp in the 50 ms after its release.
+/// At the pose it was made from it gives the force of that [`Step`](crate::Step) to rounding, except for what
+/// remains of a grasp in the 50 ms after its release.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LocalLaw {
     /// What the probe does.
     pub mode: Mode,
-    /// Contact: a point of the surface's tangent plane, under the probe. Grasp: the probe position at the grasp. In metres.
+    /// Contact: a point of the surface's tangent plane, under the probe. Grasp: the probe position at the
+    /// grasp. In metres.
     pub anchor: DVec3,
     /// Unit vector out of the body; zero in mode none.
     pub normal: DVec3,
@@ -39,7 +40,8 @@ pub struct LocalLaw {
 }
 
 impl LocalLaw {
-    /// Depth of a probe at `probe` in metres, positive into the body, negative where the body is pulled or not touched.
+    /// Depth of a probe at `probe` in metres, positive into the body, negative where the body is pulled or
+    /// not touched.
     #[must_use]
     #[inline]
     pub fn depth_m(&self, probe: DVec3) -> f64 {

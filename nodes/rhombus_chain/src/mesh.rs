@@ -17,8 +17,9 @@ pub(crate) use topology::{destination, next, previous};
 /// Largest coordinate that is taken seriously, in metres. Products of three of them stay far from overflow.
 pub(crate) const COORDINATE_LIMIT_M: f64 = 1e6;
 
-/// A triangle has to be higher than this fraction of its longest edge: below, its normal is mostly rounding.
-pub(crate) const DEGENERATE_HEIGHT: f64 = 1e-9;
+/// A triangle has to be higher than this fraction of its longest edge. Its square is what closest points are
+/// divided by: far below 1e-8 that would be all rounding.
+pub(crate) const DEGENERATE_HEIGHT: f64 = 1e-6;
 
 /// Half-edge numbers are 32 bits wide.
 pub(crate) const TRIANGLE_LIMIT: usize = (u32::MAX / 3) as usize - 1;
@@ -53,8 +54,8 @@ impl SurfaceMesh {
     /// Checks the triangle list and prepares normals, areas and neighbours.
     ///
     /// # Errors
-    /// The first fault found, in the order of [`MeshError`]'s variants. A closed part inside another part may be
-    /// oriented inward (a cavity); one that lies beside the others may not.
+    /// The first fault found, in the order of [`MeshError`]'s variants. A closed part inside another part may
+    /// be oriented inward (a cavity); one that lies beside the others may not.
     pub fn new(vertices: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         check_entries(&vertices, &triangles)?;
         let half_edges = HalfEdges::new(vertices.len(), &triangles, |_| false);

@@ -1,24 +1,26 @@
-//! Where the probe touches: the contact's point on the rest surface, its normal and the probe's distance along it.
+//! Where the probe touches: the contact's point on the rest surface, its normal and the probe's distance
+//! along it.
 //!
-//! Two steps (MODEL section 5). A *walk* over the surface from the last contact goes to the local minimum of distance: it
-//! stays on its side of a thin lobe. Closest points of a faceted surface jump, though: from inside at every convex edge, from
-//! outside at every concave one. So the walk's end is only where the *projection along interpolated normals* starts. It
-//! looks for the face, the weights b and the height t with
+//! Two steps (MODEL section 5). A *walk* over the surface from the last contact goes to the local minimum of
+//! distance: it stays on its side of a thin lobe. Closest points of a faceted surface jump, though: from
+//! inside at every convex edge, from outside at every concave one. So the walk's end is only where the
+//! *projection along interpolated normals* starts. It looks for the face, the weights b and the height t with
 //!
 //! ```text
 //! probe = sum_i b_i (p_i + t n_i),      p_i, n_i: corners of the face and their vertex normals
 //! ```
 //!
-//! Neighbouring faces share p_i, n_i of their edge, so the solution crosses edges and vertices without a jump. Deeper
-//! than the surface's radius of curvature normals cross and there may be no solution; then the walk's end counts.
+//! Neighbouring faces share p_i, n_i of their edge, so the solution crosses edges and vertices without a
+//! jump. Deeper than the surface's radius of curvature normals cross and there may be no solution; then the
+//! walk's end counts.
 
 use glam::DVec3;
 
 use crate::closest::closest_on_triangle;
 use crate::mesh::{SurfaceMesh, SurfacePoint, length, unit};
 
-/// Triangles one walk may look at. A probe that moves 1 mm between two poses passes a few; the rest of an absurd leap
-/// is walked with the next poses.
+/// Triangles one walk may look at. A probe that moves 1 mm between two poses passes a few; the rest of an
+/// absurd leap is walked with the next poses.
 const WALK_LIMIT: usize = 512;
 
 /// Faces one projection may pass through.
@@ -122,11 +124,13 @@ fn proxy(mesh: &SurfaceMesh, at: SurfacePoint, probe: DVec3) -> Option<Proxy> {
     Some(Proxy { at, normal, distance_m: (probe - mesh.position(at)).dot(normal) })
 }
 
-/// Weights of the corners at which `probe` lies on the triangle moved along its corner normals by some height t.
+/// Weights of the corners at which `probe` lies on the triangle moved along its corner normals by some height
+/// t.
 ///
-/// Newton's method for the height at which the moved triangle's plane passes through the probe. The plane's point next to the
-/// probe, with the weights b, moves with `sum b_i n_i`; so the distance changes with t by that velocity along the plane's normal.
-/// `None` where the triangle turns over on the way: normals have crossed.
+/// Newton's method for the height at which the moved triangle's plane passes through the probe. The plane's
+/// point next to the probe, with the weights b, moves with `sum b_i n_i`; so the distance changes with t by
+/// that velocity along the plane's normal. `None` where the triangle turns over on the way: normals have
+/// crossed.
 fn weights_at_height(corners: [DVec3; 3], normals: [DVec3; 3], probe: DVec3) -> Option<DVec3> {
     let from_probe = corners.map(|p| p - probe);
     let rest_area = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
@@ -156,6 +160,6 @@ fn weights_at_height(corners: [DVec3; 3], normals: [DVec3; 3], probe: DVec3) -> 
     None
 }
 
-/// Newton's method doubles its digits with every step once it has some; it needs three or four steps on a surface that
-/// is not folded.
+/// Newton's method doubles its digits with every step once it has some; it needs three or four steps on a
+/// surface that is not folded.
 const NEWTON_LIMIT: usize = 20;

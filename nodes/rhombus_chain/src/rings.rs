@@ -2,8 +2,8 @@
 
 use crate::mesh::{SurfaceMesh, SurfacePoint};
 
-/// Ring numbers of vertices, with the scratch memory to find them. Ring 0 are the corners of the point's face, ring 1 their
-/// other neighbours, and so on.
+/// Ring numbers of vertices, with the scratch memory to find them. Ring 0 are the corners of the point's
+/// face, ring 1 their other neighbours, and so on.
 #[derive(Clone, Debug)]
 pub(crate) struct Rings {
     /// The query that last reached each vertex.

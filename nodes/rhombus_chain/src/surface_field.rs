@@ -12,14 +12,14 @@ use crate::parameters::Spread;
 use crate::rings::Rings;
 use crate::tissue::Tissue;
 
-/// Behind a thin lobe, where the way along the surface turns back under the contact, "away from the contact" loses its
-/// meaning. It fades where the way in the tangent plane is less than this part of the distance.
+/// Behind a thin lobe, where the way along the surface turns back under the contact, "away from the contact"
+/// loses its meaning. It fades where the way in the tangent plane is less than this part of the distance.
 const AWAY_FADES_BELOW: f64 = 0.2;
 
 /// Displacements of the vertices that move, with the scratch memory to compute them.
 ///
-/// Made once for a body and a tissue. The cost of an update follows the vertices that move. Memory is set aside at construction,
-/// one more list when more impressions come together than ever before.
+/// Made once for a body and a tissue. The cost of an update follows the vertices that move. Memory is set
+/// aside at construction, one more list when more impressions come together than ever before.
 #[derive(Clone, Debug)]
 pub struct SurfaceField {
     tissue: Tissue,
@@ -73,11 +73,11 @@ impl SurfaceField {
         }
     }
 
-    /// Computes the field of `impressions`. `body` is the one this was made for; another `tissue` than the last one is
-    /// taken over first, which allocates.
+    /// Computes the field of `impressions`. `body` is the one this was made for; another `tissue` than the
+    /// last one is taken over first, which allocates.
     ///
-    /// Where an impression has not moved since the last update, its arc lengths are used again; the result is the same in every
-    /// bit. Impressions whose depth is not finite are left out.
+    /// Where an impression has not moved since the last update, its arc lengths are used again; the result is
+    /// the same in every bit. Impressions whose depth is not finite are left out.
     pub fn update(
         &mut self,
         body: &Body,
@@ -209,16 +209,17 @@ impl SurfaceField {
     }
 }
 
-/// Direction away from the contact in its tangent plane, for a vertex at `offset` from it: a unit vector, shorter behind a
-/// thin lobe, zero at the contact.
+/// Direction away from the contact in its tangent plane, for a vertex at `offset` from it: a unit vector,
+/// shorter behind a thin lobe, zero at the contact.
 fn away(offset: DVec3, normal: DVec3) -> DVec3 {
     let in_plane = offset - normal * offset.dot(normal);
     let scale = length(in_plane).max(AWAY_FADES_BELOW * length(offset));
     if scale > 0.0 { in_plane / scale } else { DVec3::ZERO }
 }
 
-/// The next number above with five binary digits behind the first. While a contact stays where it is, its depth changes; so its
-/// neighbourhood is computed anew only when the reach passes one of these steps, and depends on nothing but the present reach.
+/// The next number above with five binary digits behind the first. While a contact stays where it is, its
+/// depth changes; so its neighbourhood is computed anew only when the reach passes one of these steps, and
+/// depends on nothing but the present reach.
 fn rounded_up(reach: f64) -> f64 {
     const DROPPED: u64 = (1 << 47) - 1;
     let bits = reach.to_bits();

@@ -12,10 +12,10 @@ const WIDTH: usize = 4;
 
 /// Spatial index over the triangles of one surface: a tree of bounding boxes, four to a node.
 ///
-/// Boxes are stored in single precision, rounded outward: half the memory traffic, and still exact answers, because
-/// boxes only decide what need not be looked at. The tree is balanced by counting, so that its depth is bounded
-/// (logarithm to the base 4 of the triangle count) and a query needs a small fixed stack and no allocation, whatever the
-/// mesh.
+/// Boxes are stored in single precision, rounded outward: half the memory traffic, and still exact answers,
+/// because boxes only decide what need not be looked at. The tree is balanced by counting, so that its depth
+/// is bounded (logarithm to the base 4 of the triangle count) and a query needs a small fixed stack and no
+/// allocation, whatever the mesh.
 #[derive(Clone, Debug)]
 pub struct SurfaceIndex {
     nodes: Vec<Node>,
@@ -46,9 +46,9 @@ impl SurfaceIndex {
 
     /// The surface point closest to `point` and its distance in metres, among those at most `within_m` away.
     ///
-    /// `mesh` is the surface the index was made of. `None` also for a point that is not finite or more than 1e6 m from the
-    /// origin. Of several equally close points one is returned, always the same.
-    /// Real-time safe: bounded work, no allocation. The work grows with the number of triangles about as close as the
+    /// `mesh` is the surface the index was made of. `None` also for a point that is not finite or more than
+    /// 1e6 m from the origin. Of several equally close points one is returned, always the same. Real-time
+    /// safe: bounded work, no allocation. The work grows with the number of triangles about as close as the
     /// closest one: all of them for the centre of a sphere.
     #[must_use]
     pub fn closest(&self, mesh: &SurfaceMesh, point: DVec3, within_m: f64) -> Option<(SurfacePoint, f64)> {

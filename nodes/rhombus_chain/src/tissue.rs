@@ -33,8 +33,8 @@ pub enum TissueError {
 }
 
 impl Tissue {
-    /// Checks the settings. `probe_radius_m` is the radius of the spherical probe; `grasp_lateral` is the stiffness of a
-    /// grasp across the surface normal as a multiple of the law's rest stiffness.
+    /// Checks the settings. `probe_radius_m` is the radius of the spherical probe; `grasp_lateral` is the
+    /// stiffness of a grasp across the surface normal as a multiple of the law's rest stiffness.
     ///
     /// # Errors
     /// The first setting outside its range.

@@ -41,8 +41,8 @@ fn shaken(subdivisions: u32, by_m: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (vertices, triangles)
 }
 
-/// The shortest ways over the triangles, the slow and sure way: from the source and from every vertex, all straight ways through
-/// all sequences of triangles, none left out but those that are longer than `limit_m`.
+/// The shortest ways over the triangles, the slow and sure way: from the source and from every vertex, all
+/// straight ways through all sequences of triangles, none left out but those that are longer than `limit_m`.
 struct EveryWay<'a> {
     mesh: &'a SurfaceMesh,
     /// The face to the right of each directed edge, with its third vertex.
@@ -99,7 +99,8 @@ impl<'a> EveryWay<'a> {
         }
     }
 
-    /// Ways from `source` between the directions to `cone`, over the edge u v that lies at `ends`. The source is to its left.
+    /// Ways from `source` between the directions to `cone`, over the edge u v that lies at `ends`. The source
+    /// is to its left.
     fn go_on(
         &self,
         arcs: &mut [f64],

@@ -112,8 +112,8 @@ fn separation_resets_the_memory() {
     assert!(step.normal.distance(-DVec3::Z) < 1e-12, "now the other side is nearer");
 }
 
-/// Slides `body`'s surface in steps of `step_m`, pressed in by `depth_m`, and returns the largest change of force in one step,
-/// as a multiple of what the change of position alone would give on a flat side.
+/// Slides `body`'s surface in steps of `step_m`, pressed in by `depth_m`, and returns the largest change of
+/// force in one step, as a multiple of what the change of position alone would give on a flat side.
 fn worst_change(body: &Body, depth_m: f64, step_m: f64, seed: u64) -> f64 {
     let (tissue, mut random) = (tissue(), Random(seed));
     let stiffness = tissue.law().at_depth(depth_m).expect("finite").stiffness_n_per_m;

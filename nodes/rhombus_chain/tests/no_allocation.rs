@@ -35,7 +35,8 @@ fn no_pose_and_no_surface_allocates_after_construction() {
                 })
                 .expect("an answer");
                 modes[step.mode as usize] += 1;
-                // The first impression of a kind of its own makes room for itself: a second one while a grasp fades.
+                // The first impression of a kind of its own makes room for itself: a second one while a grasp
+                // fades.
                 if k % 20 == 0 && interaction.impressions().count() < 2 {
                     assert_no_alloc(|| field.update(&body, &tissue, interaction.impressions()));
                 }

@@ -1,19 +1,21 @@
 //! Arc lengths by labelling vertices outward from the source.
 //!
-//! Two labelled vertices of a triangle place the source in the triangle's plane, on the far side of their edge; the straight line
-//! from there to the third vertex is its label if it crosses the edge, else the way leads through the nearer end. Where a way
-//! turns out shorter afterwards (behind obtuse angles) vertices are labelled again.
+//! Two labelled vertices of a triangle place the source in the triangle's plane, on the far side of their
+//! edge; the straight line from there to the third vertex is its label if it crosses the edge, else the way
+//! leads through the nearer end. Where a way turns out shorter afterwards (behind obtuse angles) vertices are
+//! labelled again.
 
 use super::labels::Labels;
 use super::shelves::Shelves;
 use super::table::Table;
 use crate::mesh::{SurfaceMesh, SurfacePoint, length};
 
-/// A label only counts as shorter when it is shorter by this factor: rounding must not keep labels falling for ever.
+/// A label only counts as shorter when it is shorter by this factor: rounding must not keep labels falling
+/// for ever.
 const SHORTER: f64 = 1.0 - 1e-12;
 
-/// Depth of a shelf of the queue in mean edge lengths. Deeper ones label more vertices twice, shallower ones take longer to
-/// look through.
+/// Depth of a shelf of the queue in mean edge lengths. Deeper ones label more vertices twice, shallower ones
+/// take longer to look through.
 const SHELF_DEPTH: f64 = 0.12;
 
 #[derive(Clone, Debug)]
@@ -57,7 +59,8 @@ impl Labelling {
         self.table.memory_bytes() + self.labels.memory_bytes()
     }
 
-    /// Carries the label of `vertex` to the vertices around it: along the edges, and across the edges to settled ones.
+    /// Carries the label of `vertex` to the vertices around it: along the edges, and across the edges to
+    /// settled ones.
     fn relax(&mut self, vertex: u32, arc_m: f64, limit_m: f64) {
         let Self { table, labels } = self;
         let fan = table.fan(vertex);
@@ -89,22 +92,24 @@ impl Labelling {
     }
 }
 
-/// Length of the straight way to a triangle's third vertex across the edge between the two others, where it crosses that edge and
-/// is shorter than `known`; else `known`.
+/// Length of the straight way to a triangle's third vertex across the edge between the two others, where it
+/// crosses that edge and is shorter than `known`; else `known`.
 ///
-/// In the plane of the triangle, with the edge from the origin along x: the source is below the edge, `arcs` away from its
-/// ends; the third vertex is above it. `lengths` of the edge and of the side from the origin to the third vertex, with
-/// cosine and sine of the angle between them.
+/// In the plane of the triangle, with the edge from the origin along x: the source is below the edge, `arcs`
+/// away from its ends; the third vertex is above it. `lengths` of the edge and of the side from the origin to
+/// the third vertex, with cosine and sine of the angle between them.
 #[inline]
 fn across([start, end]: [f64; 2], [edge, side]: [f64; 2], [cos, sin]: [f64; 2], known: f64) -> f64 {
     let (x, y) = (side * cos, side * sin);
-    let along = ((start - end) * (start + end) + edge * edge) / (2.0 * edge);
-    let below = ((start - along) * (start + along)).max(0.0).sqrt();
+    // Everything times twice the edge: a square root is enough to know whether there is anything to divide.
+    let twice = 2.0 * edge;
+    let along = (start - end) * (start + end) + edge * edge;
+    let below = ((twice * start - along) * (twice * start + along)).max(0.0).sqrt();
     let crossing = along * y + x * below;
-    if crossing < 0.0 || crossing > edge * (below + y) {
+    if crossing < 0.0 || crossing > edge * (below + twice * y) {
         return known;
     }
-    let (dx, dy) = (x - along, y + below);
+    let (dx, dy) = (twice * x - along, twice * y + below);
     let squared = dx * dx + dy * dy;
-    if squared < known * known { squared.sqrt() } else { known }
+    if squared < (twice * known) * (twice * known) { squared.sqrt() / twice } else { known }
 }

@@ -73,7 +73,8 @@ impl Labels {
         if is_new {
             self.known.push(vertex);
         }
-        // One that waits already keeps its place: it comes a little late, and is carried on with its new label.
+        // One that waits already keeps its place: it comes a little late, and is carried on with its new
+        // label.
         if !is_waiting {
             label.behind = self.queue.push(vertex, arc_m);
         }

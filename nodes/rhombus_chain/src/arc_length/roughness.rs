@@ -4,13 +4,14 @@ use crate::mesh::{SurfaceMesh, destination, length};
 
 /// Curvature around a vertex up to which labelling is used, in radians: 75 degrees. A cube's corner has 90.
 ///
-/// Labelling takes the labels at an edge's two ends for one wave. Behind a sharp corner they belong to two waves that came
-/// round it from either side, and the label is too short by an amount that grows with the corner's curvature. Measured against
-/// exact shortest ways: at most 4.9 % on livers, ellipsoids and tori below this bound (32 to 53 degrees), up to 13 % on
-/// cubes, bars and cylinders above it.
+/// Labelling takes the labels at an edge's two ends for one wave. Behind a sharp corner they belong to two
+/// waves that came round it from either side, and the label is too short by an amount that grows with the
+/// corner's curvature. Measured against exact shortest ways: at most 4.9 % on livers, ellipsoids and tori
+/// below this bound (32 to 53 degrees), up to 13 % on cubes, bars and cylinders above it.
 const SMOOTH_UP_TO: f64 = 75.0 * std::f64::consts::PI / 180.0;
 
-/// Whether nowhere on the surface the curvature of a vertex and of its neighbours adds up to more than the bound.
+/// Whether nowhere on the surface the curvature of a vertex and of its neighbours adds up to more than the
+/// bound.
 pub(super) fn is_smooth(mesh: &SurfaceMesh) -> bool {
     let curvatures = curvatures(mesh);
     (0u32..).zip(&curvatures).all(|(vertex, own)| {

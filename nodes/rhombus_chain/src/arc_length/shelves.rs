@@ -6,10 +6,11 @@ pub(super) const NONE: u32 = u32::MAX;
 /// Number of shelves.
 const SHELVES: usize = 512;
 
-/// Entries are put on shelves of equal depth by their key; on a shelf the last to come is the first to be served.
+/// Entries are put on shelves of equal depth by their key; on a shelf the last to come is the first to be
+/// served.
 ///
-/// An exact order would cost more than it saves where an entry that comes a little late does no harm. The entries belong to the
-/// caller, who keeps for each the number of the one behind it.
+/// An exact order would cost more than it saves where an entry that comes a little late does no harm. The
+/// entries belong to the caller, who keeps for each the number of the one behind it.
 #[derive(Clone, Debug)]
 pub(super) struct Shelves {
     /// First entry of each shelf; keys one round of shelves apart share one.
@@ -21,7 +22,8 @@ pub(super) struct Shelves {
 }
 
 impl Shelves {
-    /// For keys that exceed the one last served by at most `span_m`, in steps of `depth_m` if the shelves allow.
+    /// For keys that exceed the one last served by at most `span_m`, in steps of `depth_m` if the shelves
+    /// allow.
     pub(super) fn new(depth_m: f64, span_m: f64) -> Self {
         let depth_m = depth_m.max(span_m / (SHELVES - 2) as f64);
         Self { first: Box::new([NONE; SHELVES]), per_m: 1.0 / depth_m, present: 0, waiting: 0 }

@@ -1,10 +1,11 @@
 //! Exact arc lengths: windows sent across the edges.
 //!
-//! Straight ways from the source that cross an edge side by side, through the same triangles, make a *window*: a stretch of
-//! the edge, and the source's place in the plane of the triangle behind. A window goes on through the next triangle to the one
-//! or two edges it meets there, and where it meets a vertex it gives it a label. Shortest ways bend only at vertices with more
-//! than a full turn of angles around them; windows are sent from those, too, into the shadow behind them
-//! (Mitchell, Mount, Papadimitriou 1987; Chen, Han 1990).
+//! Straight ways from the source that cross an edge side by side, through the same triangles, make a
+//! *window*: a stretch of the edge, and the source's place in the plane of the triangle behind. A window goes
+//! on through the next triangle to the one or two edges it meets there, and where it meets a vertex it gives
+//! it a label. Shortest ways bend only at vertices with more than a full turn of angles around them; windows
+//! are sent from those, too, into the shadow behind them (Mitchell, Mount, Papadimitriou 1987; Chen, Han
+//! 1990).
 
 mod unfolding;
 
@@ -15,8 +16,8 @@ use super::shelves::{NONE, Shelves};
 use crate::mesh::{SurfaceMesh, SurfacePoint, destination, length, next, previous};
 use unfolding::{Crossing, Unfolded, segments_cross};
 
-/// A label or a window only counts as shorter when it is shorter by this factor, so that ways of equal length do not push each
-/// other out by rounding.
+/// A label or a window only counts as shorter when it is shorter by this factor, so that ways of equal length
+/// do not push each other out by rounding.
 const SHORTER: f64 = 1.0 - 1e-12;
 const LONGER: f64 = 1.0 + 1e-10;
 
@@ -49,7 +50,8 @@ pub(super) struct Windows {
 #[derive(Clone, Copy, Debug)]
 struct Label {
     arc_m: f64,
-    /// Half-edge opposite to the vertex, and the source, or something in its direction, in that half-edge's plane.
+    /// Half-edge opposite to the vertex, and the source, or something in its direction, in that half-edge's
+    /// plane.
     half_edge: u32,
     source: DVec2,
 }
@@ -198,8 +200,8 @@ impl Windows {
         }
     }
 
-    /// Sends windows from a vertex to the opposite edges of its faces. `range`: between which angles, counted clockwise from the
-    /// direction the shortest way comes from.
+    /// Sends windows from a vertex to the opposite edges of its faces. `range`: between which angles, counted
+    /// clockwise from the direction the shortest way comes from.
     fn send_from(&mut self, mesh: &SurfaceMesh, vertex: u32, range: [f64; 2]) {
         let Label { arc_m, half_edge, source } = self.labels[vertex as usize];
         let mut edge = previous(half_edge);
@@ -244,11 +246,11 @@ impl Windows {
         }
     }
 
-    /// Whether, for every way through the window, there is a shorter one by a corner of the triangle before the edge
-    /// (Xin, Wang 2009).
+    /// Whether, for every way through the window, there is a shorter one by a corner of the triangle before
+    /// the edge (Xin, Wang 2009).
     ///
-    /// One by a corner v is shorter to a point A of the window. Where the line from v to A crosses the ways to all other points of
-    /// the window, those are shorter by v as well, from the crossing on.
+    /// One by a corner v is shorter to a point A of the window. Where the line from v to A crosses the ways
+    /// to all other points of the window, those are shorter by v as well, from the crossing on.
     fn is_beaten(&self, mesh: &SurfaceMesh, window: &Window, at_ends_m: [f64; 2]) -> bool {
         let Window { half_edge, source, ends, .. } = *window;
         let edge_m = self.unfolded.length(half_edge);

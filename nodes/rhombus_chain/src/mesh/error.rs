@@ -5,7 +5,8 @@ use thiserror::Error;
 
 use super::COORDINATE_LIMIT_M;
 
-/// Why [`SurfaceMesh::new`](super::SurfaceMesh::new) refuses a mesh. Vertices and triangles are numbered from 0.
+/// Why [`SurfaceMesh::new`](super::SurfaceMesh::new) refuses a mesh. Vertices and triangles are numbered from
+/// 0.
 ///
 /// A surface that is accepted has an inside: every edge joins two triangles that run through it in
 /// opposite directions, counter-clockwise seen from outside.

@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::topology::{self, HalfEdges, NONE};
 use super::{TRIANGLE_LIMIT, measures};
 
-/// Counts of everything [`SurfaceMesh::new`](super::SurfaceMesh::new) looks at, without stopping at the first fault.
+/// Counts of everything [`SurfaceMesh::new`](super::SurfaceMesh::new) looks at, without stopping at the first
+/// fault.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inspection {
     /// Number of vertices.
@@ -30,7 +31,8 @@ pub struct Inspection {
     pub unreferenced_vertices: usize,
     /// Connected parts.
     pub parts: usize,
-    /// Signed volume in m³, negative when the triangles are flipped; `None` when the surface does not enclose one.
+    /// Signed volume in m³, negative when the triangles are flipped; `None` when the surface does not enclose
+    /// one.
     pub volume_m3: Option<f64>,
     /// Surface area in m².
     pub area_m2: f64,

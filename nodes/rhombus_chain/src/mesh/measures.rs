@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::topology::{HalfEdges, NONE};
 use super::{COORDINATE_LIMIT_M, DEGENERATE_HEIGHT, MeshError};
 
-/// Volume of a body below this fraction of (surface area x extent) is rounding: the surface is a folded sheet.
+/// Volume of a body below this fraction of (surface area x extent) is rounding: the surface is a folded
+/// sheet.
 const FLAT_VOLUME: f64 = 1e-12;
 
 /// Whether a position can be computed with.
@@ -89,7 +90,8 @@ pub(crate) fn vertex_areas(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f6
     areas
 }
 
-/// Normals of the adjoining faces weighted by the angle at the vertex: independent of how a flat region is divided.
+/// Normals of the adjoining faces weighted by the angle at the vertex: independent of how a flat region is
+/// divided.
 pub(crate) fn vertex_normals(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut normals = vec![DVec3::ZERO; vertices.len()];
     for corners in triangles {

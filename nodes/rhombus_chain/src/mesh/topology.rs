@@ -74,7 +74,8 @@ pub(crate) fn previous(h: u32) -> u32 {
 }
 
 impl<'a> HalfEdges<'a> {
-    /// Sorts the half-edges of triangles whose vertex numbers are below `vertices`; `skip` leaves triangles out.
+    /// Sorts the half-edges of triangles whose vertex numbers are below `vertices`; `skip` leaves triangles
+    /// out.
     pub(crate) fn new(vertices: usize, triangles: &'a [[u32; 3]], skip: impl Fn(usize) -> bool) -> Self {
         let mut starts = vec![0u32; vertices + 1];
         for (_, triangle) in triangles.iter().enumerate().filter(|(t, _)| !skip(*t)) {

@@ -72,8 +72,8 @@ pub(super) fn closest(
 }
 
 impl Node {
-    /// Squared distances from a point, known to lie between `low` and `high`, to the children's boxes: never too
-    /// large. Infinite for an absent child.
+    /// Squared distances from a point, known to lie between `low` and `high`, to the children's boxes: never
+    /// too large. Infinite for an absent child.
     #[inline]
     fn squared_distances(&self, low: [f32; 3], high: [f32; 3]) -> [f32; WIDTH] {
         let mut sums = [0.0f32; WIDTH];
@@ -89,8 +89,8 @@ impl Node {
     }
 }
 
-/// How often the surface winds around `point`: surface crossings of the ray from `point` along +x, counted with their
-/// direction.
+/// How often the surface winds around `point`: surface crossings of the ray from `point` along +x, counted
+/// with their direction.
 pub(super) fn winding(index: &SurfaceIndex, mesh: &SurfaceMesh, point: DVec3) -> i32 {
     let low = point.to_array().map(round_down);
     let high = point.to_array().map(round_up);
@@ -144,8 +144,8 @@ fn crossing(mesh: &SurfaceMesh, face: u32, point: DVec3) -> i32 {
 
 /// Whether, seen along x, `point` lies to the left of the edge from vertex `from` to vertex `to`.
 ///
-/// Computed from the smaller vertex number to the larger, so that the two faces at an edge always give opposite answers
-/// and a ray through the edge is counted exactly once.
+/// Computed from the smaller vertex number to the larger, so that the two faces at an edge always give
+/// opposite answers and a ray through the edge is counted exactly once.
 fn is_left_of(mesh: &SurfaceMesh, from: u32, to: u32, point: DVec3) -> bool {
     let (first, second) = if from < to { (from, to) } else { (to, from) };
     let (a, b) = (mesh.vertices()[first as usize] - point, mesh.vertices()[second as usize] - point);

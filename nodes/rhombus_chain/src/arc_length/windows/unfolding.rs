@@ -8,7 +8,8 @@ use glam::DVec3;
 /// Directions closer than this to each other, in radians, may be the same.
 const SAME_DIRECTION: f64 = 1e-9;
 
-/// Each triangle in the plane of each of its half-edges: the half-edge runs from the origin along x, the triangle is above it.
+/// Each triangle in the plane of each of its half-edges: the half-edge runs from the origin along x, the
+/// triangle is above it.
 #[derive(Clone, Debug)]
 pub(super) struct Unfolded {
     lengths_m: Vec<f64>,
@@ -67,8 +68,8 @@ impl Unfolded {
         libm::atan2(to_source.perp_dot(to_start).abs(), to_source.dot(to_start))
     }
 
-    /// What the apex of a half-edge sees of the half-edge between two angles, counted from its end towards its start. The apex and the
-    /// stretch, in the plane of the twin.
+    /// What the apex of a half-edge sees of the half-edge between two angles, counted from its end towards
+    /// its start. The apex and the stretch, in the plane of the twin.
     pub(super) fn fan_out(&self, half_edge: u32, [from, to]: [f64; 2]) -> (DVec2, [f64; 2]) {
         let edge_m = self.length(half_edge);
         let apex = self.seen_by_twin(half_edge, self.apex(half_edge));
@@ -151,8 +152,8 @@ impl Crossing {
         (self.apex - self.source).length()
     }
 
-    /// The part that leaves to the left of the apex: source and stretch in the plane of the left edge's twin, which runs from the
-    /// half-edge's start to the apex.
+    /// The part that leaves to the left of the apex: source and stretch in the plane of the left edge's twin,
+    /// which runs from the half-edge's start to the apex.
     pub(super) fn left(&self) -> Option<(DVec2, [f64; 2])> {
         let (start, end) = (DVec2::ZERO, self.apex);
         (self.sides[0] < 0.0).then(|| {
@@ -161,8 +162,8 @@ impl Crossing {
         })
     }
 
-    /// The part that leaves to the right of the apex, in the plane of the right edge's twin, which runs from the apex to the
-    /// half-edge's end.
+    /// The part that leaves to the right of the apex, in the plane of the right edge's twin, which runs from
+    /// the apex to the half-edge's end.
     pub(super) fn right(&self) -> Option<(DVec2, [f64; 2])> {
         let (start, end) = (self.apex, DVec2::new(self.edge_m, 0.0));
         (self.sides[1] > 0.0).then(|| {
