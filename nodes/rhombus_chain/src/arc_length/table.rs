@@ -19,9 +19,9 @@ impl Edge {
     /// `false` is certain.
     ///
     /// A straight way to the end through a triangle beside the edge comes at an angle phi from the edge, no
-    /// larger than the triangle's angle gamma there. If it is D long, the start is at most `sqrt(D^2 + l^2 -
-    /// 2 D l cos gamma)` away; over all D up to `end_m` that is most at one of the two ends. From a start
-    /// that is farther away there is no such way.
+    /// larger than the triangle's angle gamma there. If it is D long, the start is at most
+    /// `sqrt(D^2 + l^2 - 2 D l cos gamma)` away; over all D up to `end_m` that is most at one of the two
+    /// ends. From a start that is farther away there is no such way.
     #[inline]
     pub(super) fn may_shorten(&self, end_m: f64, start_m: f64) -> bool {
         let l = self.length_m;
@@ -82,14 +82,14 @@ impl Table {
         &self.edges[self.starts[v] as usize..self.starts[v + 1] as usize]
     }
 
-    /// Arc length up to which a vertex b can matter to arcs below `limit_m`: it can shorten the way to a
-    /// vertex c before it.
+    /// Arc length up to which a vertex b can matter to arcs below `limit_m`: it can shorten the way to a vertex
+    /// c before it.
     ///
-    /// With the source at distance D from c, at an angle phi from the edge c b of length l, b is at `sqrt(D^2
-    /// + l^2 - 2 D l cos phi)`. The way crosses a triangle a b c, so phi is at most its angle at c: only an
-    /// obtuse one leaves a distance behind c that does not shrink with D. Three times that, for b may in turn
-    /// depend on vertices behind it. Measured with random limits: 6 arcs of 100 000 on a liver, 700 on a lens
-    /// ten times as wide as thick still depend on the limit, by less than 0.5 %.
+    /// With the source at distance D from c, at an angle phi from the edge c b of length l, b is
+    /// `sqrt(D^2 + l^2 - 2 D l cos phi)` away. The way crosses a triangle a b c, so phi is at most its angle
+    /// at c: only an obtuse one leaves a distance behind c that does not shrink with D. Three times that, for
+    /// b may in turn depend on vertices behind it. Measured with random limits: of 100 000 arcs on a liver 6,
+    /// on a lens ten times as wide as thick 700 still depend on the limit, by less than 0.5 %.
     #[inline]
     pub(super) fn horizon_m(&self, vertex: u32, limit_m: f64) -> f64 {
         let [l, obtuse] = self.reach[vertex as usize];
