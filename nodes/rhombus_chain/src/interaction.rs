@@ -166,7 +166,7 @@ impl Interaction {
     fn touch(&self, body: &Body, tissue: &Tissue, probe: DVec3) -> Option<(Proxy, f64)> {
         let radius_m = tissue.probe_radius_m();
         let follow = |from| {
-            let proxy = proxy::follow(body.mesh(), from, probe);
+            let proxy = proxy::follow(body.mesh(), from, probe)?;
             let depth_m = radius_m - proxy.distance_m;
             (depth_m > 0.0).then_some((proxy, depth_m))
         };

@@ -19,8 +19,8 @@ use glam::DVec3;
 use crate::closest::closest_on_triangle;
 use crate::mesh::{SurfaceMesh, SurfacePoint, length, unit};
 
-/// Triangles one walk may look at. A probe that moves 1 mm between two poses passes a few; the rest of an
-/// absurd leap is walked with the next poses.
+/// Triangles one walk may look at. A probe that moves 1 mm between two poses passes a few; a leap that needs
+/// more is no sliding, and the contact is lost.
 const WALK_LIMIT: usize = 512;
 
 /// Faces one projection may pass through.
@@ -39,20 +39,23 @@ pub(crate) struct Proxy {
     pub(crate) distance_m: f64,
 }
 
-/// The proxy of a probe at `probe` that was last at `from`. Real-time safe: bounded work for any position.
-pub(crate) fn follow(mesh: &SurfaceMesh, from: SurfacePoint, probe: DVec3) -> Proxy {
-    let near = walk(mesh, from, probe);
-    project(mesh, near.face, probe).unwrap_or_else(|| {
+/// The proxy of a probe at `probe` that was last at `from`; `None` when the probe has leapt too far to be
+/// followed. Real-time safe: bounded work for any position.
+pub(crate) fn follow(mesh: &SurfaceMesh, from: SurfacePoint, probe: DVec3) -> Option<Proxy> {
+    let near = walk(mesh, from, probe)?;
+    let projected = project(mesh, near.face, probe);
+    Some(projected.unwrap_or_else(|| {
         let normal = mesh.normal(near);
         let offset = probe - mesh.position(near);
         let distance = length(offset);
         let distance_m = if offset.dot(normal) < 0.0 { -distance } else { distance };
         Proxy { at: near, normal, distance_m }
-    })
+    }))
 }
 
-/// Goes downhill in distance from face to face, over edges and around vertices, until no neighbour is closer.
-fn walk(mesh: &SurfaceMesh, from: SurfacePoint, probe: DVec3) -> SurfacePoint {
+/// Goes downhill in distance from face to face, over edges and around vertices, until no neighbour is closer;
+/// `None` when that is farther than the limit.
+fn walk(mesh: &SurfaceMesh, from: SurfacePoint, probe: DVec3) -> Option<SurfacePoint> {
     let mut face = from.face;
     let (mut barycentric, mut squared) = closest_on_triangle(mesh.corners(face), probe);
     let mut budget = WALK_LIMIT;
@@ -81,16 +84,13 @@ fn walk(mesh: &SurfaceMesh, from: SurfacePoint, probe: DVec3) -> SurfacePoint {
                 }
             }
         }
-        match best {
-            Some(closer) => (face, barycentric) = closer,
-            None => break,
-        }
         budget = budget.saturating_sub(1);
-        if budget == 0 {
-            break;
+        match best {
+            _ if budget == 0 => return None,
+            Some(closer) => (face, barycentric) = closer,
+            None => return Some(SurfacePoint { face, barycentric }),
         }
     }
-    SurfacePoint { face, barycentric }
 }
 
 /// Projection along interpolated normals, starting from `face`. `None` where it does not arrive.

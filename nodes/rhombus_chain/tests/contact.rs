@@ -278,3 +278,15 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_probe_that_leaps_farther_than_it_can_be_followed_is_answered_like_a_new_contact() {
+    let body = body(icosphere(0.05, 6));
+    let pressed_at = |direction: DVec3| direction * (0.05 + RADIUS_M - 0.003);
+    let mut interaction = Interaction::new();
+    interaction.step(&body, &tissue(), 0, pressed_at(DVec3::Z), false).expect("an answer");
+    let elsewhere = pressed_at(DVec3::new(0.1, 0.05, -1.0).normalize_or_zero());
+    let leapt = interaction.step(&body, &tissue(), MS, elsewhere, false).expect("an answer");
+    assert_eq!(leapt, touch(&body, elsewhere));
+    assert!((leapt.depth_m - 0.003).abs() < 1e-4, "{}", leapt.depth_m);
+}
