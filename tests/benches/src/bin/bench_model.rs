@@ -38,6 +38,8 @@ struct Options {
 const QUERIES_PER_SAMPLE: usize = 200;
 /// Way of the probe between two poses at 1 kHz and 0.2 m/s.
 const STEP_M: f64 = 0.000_2;
+/// Poses between two updates of the surface: 60 Hz would be 17.
+const STEPS_PER_UPDATE: usize = 15;
 
 /// One row of the result.
 struct Row<'a> {
@@ -143,8 +145,7 @@ fn surface_updates(
     let radius_m = tissue.probe_radius_m();
     let mut field = SurfaceField::new(body, tissue);
     let (mut touched, mut moving, mut resting) = (Vec::new(), Vec::new(), Vec::new());
-    let stride = (walk.len() / samples).max(1);
-    let places: Vec<_> = walk.iter().copied().step_by(stride).collect();
+    let places: Vec<_> = walk.iter().copied().step_by(STEPS_PER_UPDATE).take(samples).collect();
     let mut interaction = Interaction::new();
     for (index, probe) in pressed(&places, radius_m, |_| PRESS_M).into_iter().enumerate() {
         if interaction.step(body, tissue, index as i64, probe, false).is_err() {
