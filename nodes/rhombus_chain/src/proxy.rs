@@ -19,9 +19,12 @@ use glam::DVec3;
 use crate::closest::closest_on_triangle;
 use crate::mesh::{SurfaceMesh, SurfacePoint, length, unit};
 
-/// Triangles one walk may look at. A probe that moves 1 mm between two poses passes a few; a leap that needs
+/// Steps one walk may take. A probe that moves 1 mm between two poses passes a few triangles; a leap that needs
 /// more is no sliding, and the contact is lost.
 const WALK_LIMIT: usize = 512;
+
+/// Faces around one vertex a walk looks at. Only the tip of a very fine cone has more.
+const FAN_LIMIT: usize = 4096;
 
 /// Faces one projection may pass through.
 const PROJECTION_LIMIT: usize = 32;
@@ -58,8 +61,7 @@ pub(crate) fn follow(mesh: &SurfaceMesh, from: SurfacePoint, probe: DVec3) -> Op
 fn walk(mesh: &SurfaceMesh, from: SurfacePoint, probe: DVec3) -> Option<SurfacePoint> {
     let mut face = from.face;
     let (mut barycentric, mut squared) = closest_on_triangle(mesh.corners(face), probe);
-    let mut budget = WALK_LIMIT;
-    loop {
+    for _ in 0..WALK_LIMIT {
         let mut best = None;
         let mut try_face = |candidate: u32| {
             let (weights, distance) = closest_on_triangle(mesh.corners(candidate), probe);
@@ -78,19 +80,15 @@ fn walk(mesh: &SurfaceMesh, from: SurfacePoint, probe: DVec3) -> Option<SurfaceP
             (x, y, _) => {
                 let corner = if x { 0 } else { 2 - u32::from(y) };
                 let vertex = mesh.origin(3 * face + corner);
-                for half_edge in mesh.fan(vertex).take(budget) {
-                    budget -= 1;
-                    try_face(half_edge / 3);
-                }
+                mesh.fan(vertex).take(FAN_LIMIT).for_each(|half_edge| try_face(half_edge / 3));
             }
         }
-        budget = budget.saturating_sub(1);
         match best {
-            _ if budget == 0 => return None,
             Some(closer) => (face, barycentric) = closer,
             None => return Some(SurfacePoint { face, barycentric }),
         }
     }
+    None
 }
 
 /// Projection along interpolated normals, starting from `face`. `None` where it does not arrive.

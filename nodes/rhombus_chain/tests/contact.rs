@@ -112,6 +112,25 @@ fn separation_resets_the_memory() {
     assert!(step.normal.distance(-DVec3::Z) < 1e-12, "now the other side is nearer");
 }
 
+#[test]
+fn the_tip_of_a_cone_of_a_thousand_faces_can_be_pressed() {
+    let n = 1000u32;
+    let rim = |k: u32| {
+        let angle = f64::from(k) / f64::from(n) * std::f64::consts::TAU;
+        DVec3::new(libm::cos(angle), libm::sin(angle), 0.0) * 0.05
+    };
+    let mut vertices: Vec<DVec3> = (0..n).map(rim).collect();
+    vertices.extend([DVec3::Z * 0.02, -DVec3::Z * 0.02]);
+    let sides = |k: u32| [[k, (k + 1) % n, n], [(k + 1) % n, k, n + 1]];
+    let body = body((vertices, (0..n).flat_map(sides).collect()));
+    let mut interaction = Interaction::new();
+    let above = |depth_m: f64| DVec3::new(1e-5, 0.0, 0.02 + RADIUS_M - depth_m);
+    for step in drive(&body, &mut interaction, above(0.0005), above(0.004), 1e-5) {
+        assert_eq!(step.mode, Mode::Contact);
+        assert!(step.normal.angle_between(DVec3::Z) < 0.1);
+    }
+}
+
 /// Slides `body`'s surface in steps of `step_m`, pressed in by `depth_m`, and returns the largest change of
 /// force in one step, as a multiple of what the change of position alone would give on a flat side.
 fn worst_change(body: &Body, depth_m: f64, step_m: f64, seed: u64) -> f64 {
