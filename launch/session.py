@@ -71,7 +71,7 @@ class NodeProcess:
 
 
 class Monitor:
-    """The newest diagnostics of each node, read by a thread of its own."""
+    """The newest diagnostics of each node, its statuses together, read by a thread of its own."""
 
     def __init__(self, namespace):
         self.prefix = "/" + namespace.strip("/") + "/" if namespace else "/"
@@ -86,7 +86,8 @@ class Monitor:
         for status in message.status:
             node = status.name.split(":", 1)[0]
             if node.startswith(self.prefix):
-                self.values[node[len(self.prefix) :]] = {entry.key: entry.value for entry in status.values}
+                values = {entry.key: entry.value for entry in status.values}
+                self.values.setdefault(node[len(self.prefix) :], {}).update(values)
 
     def spin(self):
         try:
