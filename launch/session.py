@@ -177,7 +177,8 @@ def summary(reports, options):
         f"  peak force            {number(model, 'peak_force_n', 3)} N",
         f"  pose to force         median {number(latency, 'median')} us, p99 {number(latency, 'p99')} us, "
         f"max {number(latency, 'max')} us",
-        f"  model step            median {number(model, 'step_median_us', 1)} us, p99 {number(model, 'step_p99_us', 1)} us",
+        f"  answered in           median {number(model, 'step_median_us', 1)} us, p99 {number(model, 'step_p99_us', 1)} us "
+        "(in the model node: pose taken to force sent)",
         f"  missed deadlines      {number(device, 'missed_deadlines')} (force later than one period), "
         f"{number(device, 'late_ticks')} late ticks of the motor loop",
     ]
