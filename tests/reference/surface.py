@@ -1,0 +1,318 @@
+"""Triangle surfaces: reading, normals, and dividing flat faces without moving the geometry.
+
+A disc of radius r pressed on the surface is followed by the mesh: the rim of the disc (a circle in the tangent plane
+of the site, projected along the site's normal) becomes nodes of the surface mesh, and the divided triangles get smaller
+towards it, because the pressure under a rigid punch grows without bound there. The faces of the body stay where they
+are: every new node lies on an old face or an old edge.
+"""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import Delaunay, cKDTree
+
+
+@dataclass
+class Surface:
+    """Vertices (V, 3) in metres and triangles (T, 3), counter-clockwise seen from outside."""
+
+    vertices: np.ndarray
+    faces: np.ndarray
+
+    def face_normals(self) -> np.ndarray:
+        p = self.vertices[self.faces]
+        n = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+        return n / np.linalg.norm(n, axis=1)[:, None]
+
+    def vertex_normals(self) -> np.ndarray:
+        """Unit normals: those of the adjoining faces weighted by their angles, as the product has them."""
+        normals = np.zeros_like(self.vertices)
+        for k in range(3):
+            here = self.vertices[self.faces[:, k]]
+            a = self.vertices[self.faces[:, (k + 1) % 3]] - here
+            b = self.vertices[self.faces[:, (k + 2) % 3]] - here
+            cross = np.cross(a, b)
+            length = np.linalg.norm(cross, axis=1)
+            angle = np.arctan2(length, (a * b).sum(1))
+            np.add.at(normals, self.faces[:, k], cross * (angle / length)[:, None])
+        return normals / np.linalg.norm(normals, axis=1)[:, None]
+
+    def base(self) -> np.ndarray:
+        """Vertices of the flat underside, held fixed: normal z < -0.7. (V,) bool."""
+        return self.vertex_normals()[:, 2] < -0.7
+
+
+def read_obj(path: Path) -> Surface:
+    """Vertices and triangles of a Wavefront OBJ file, in the order of the file."""
+    vertices, faces = [], []
+    for line in Path(path).read_text().splitlines():
+        if line.startswith("v "):
+            vertices.append([float(x) for x in line.split()[1:4]])
+        elif line.startswith("f "):
+            faces.append([int(x.split("/")[0]) - 1 for x in line.split()[1:4]])
+    return Surface(np.array(vertices), np.array(faces, dtype=np.int64))
+
+
+@dataclass
+class Disc:
+    """Where a rigid flat disc touches: the near side of the surface within `radius` of `point`.
+
+    Near side: |tangential distance| <= radius, height over the tangent plane >= -radius, face turned towards `normal`.
+    """
+
+    point: np.ndarray
+    normal: np.ndarray
+    radius: float
+
+    def polar(self, x: np.ndarray):
+        """Tangential distance from the axis and height over the tangent plane, metres."""
+        r = x - self.point
+        height = r @ self.normal
+        return np.linalg.norm(r - height[..., None] * self.normal, axis=-1), height
+
+
+@dataclass
+class SizeField:
+    """Edge length wanted at a point: `rim` at the rims of the discs, growing by `growth` per metre away from them, never
+    above `inside` within a disc."""
+
+    discs: list
+    rim: dict = field(default_factory=dict)
+    inside: float = 1 / 6
+    growth: float = 0.35
+
+    def __call__(self, x: np.ndarray) -> np.ndarray:
+        size = np.full(len(x), np.inf)
+        for disc in self.discs:
+            rho, height = disc.polar(x)
+            below = np.maximum(-height - 0.5 * disc.radius, 0.0)
+            away = np.hypot(rho - disc.radius, below)
+            centre = np.hypot(np.maximum(rho - disc.radius, 0.0), below)
+            rim = self.rim.get(id(disc), disc.radius / 24)
+            size = np.minimum(size, np.minimum(rim + self.growth * away, self.inside * disc.radius + self.growth * centre))
+        return size
+
+
+def divide(surface: Surface, size: SizeField) -> tuple[Surface, np.ndarray]:
+    """The same surface with smaller triangles where `size` asks for them; the first V vertices are the old ones.
+
+    Returns the divided surface and, for each new triangle, the old face it is a part of."""
+    refined, parent = _bisect(surface, size)
+    return _follow_rims(surface, refined, parent, size)
+
+
+def _bisect(surface: Surface, size: SizeField):
+    """Longest-edge bisection, conforming: a triangle is cut at its longest edge only together with its neighbour's cut."""
+    vertices = [tuple(p) for p in surface.vertices]
+    points = surface.vertices.copy()
+    faces = surface.faces.copy()
+    parent = np.arange(len(faces))
+    while True:
+        p = points[faces]
+        edges = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2)
+        length = np.linalg.norm(p - np.roll(p, -1, axis=1), axis=2)
+        midpoints = 0.5 * (p + np.roll(p, -1, axis=1))
+        wanted = np.minimum.reduce([size(midpoints[:, k]) for k in range(3)])
+        longest = length.argmax(axis=1)
+        marked = length.max(axis=1) > 1.5 * wanted
+        if not marked.any():
+            return Surface(points, faces), parent
+        key = np.sort(edges, axis=2)
+        key = key[:, :, 0] * (len(points) + 1) + key[:, :, 1]
+        cut = set(key[np.flatnonzero(marked), longest[marked]].tolist())
+        while True:  # a triangle with any cut edge must have its longest edge cut
+            touched = np.isin(key, np.fromiter(cut, dtype=np.int64)).any(axis=1)
+            more = set(key[np.flatnonzero(touched), longest[touched]].tolist()) - cut
+            if not more:
+                break
+            cut |= more
+        cut = np.array(sorted(cut), dtype=np.int64)
+        ends = np.stack([cut // (len(points) + 1), cut % (len(points) + 1)], axis=1)
+        middle = {int(k): len(points) + i for i, k in enumerate(cut)}
+        points = np.vstack([points, 0.5 * (points[ends[:, 0]] + points[ends[:, 1]])])
+        out, owner = [], []
+        for t in range(len(faces)):
+            k = int(longest[t])
+            pieces = [tuple(np.roll(faces[t], -k))]
+            mids = [middle.get(int(key[t, (k + j) % 3])) for j in range(3)]
+            if mids[0] is not None:
+                a, b, c = pieces[0]
+                m = mids[0]
+                pieces = [(a, m, c), (m, b, c)]
+                if mids[2] is not None:
+                    pieces = [(a, m, mids[2]), (m, c, mids[2]), pieces[1]]
+                if mids[1] is not None:
+                    pieces = pieces[:-1] + [(m, b, mids[1]), (m, mids[1], c)]
+            out += pieces
+            owner += [parent[t]] * len(pieces)
+        faces, parent = np.array(out, dtype=np.int64), np.array(owner)
+
+
+def _follow_rims(old: Surface, refined: Surface, parent: np.ndarray, size: SizeField):
+    """Puts nodes on the rims of the discs, removes those too near to them, and triangulates each old face again."""
+    count = len(old.vertices)
+    points = refined.vertices
+    normals = old.face_normals()
+    divided_edges = _nodes_on_edges(old, refined, parent)
+    keep = np.ones(len(points), dtype=bool)
+    keep[count:] = _far_from_rims(points[count:], size)
+    nodes = [points]
+    total = len(points)
+    on_edge = {}
+    for key, inner in divided_edges.items():
+        a, b = points[key[0]], points[key[1]]
+        added = _rim_crossings(a, b, size)
+        inner = [(t, i) for t, i in inner if keep[i]]
+        for t, x in added:
+            local = size(x[None])[0] / np.linalg.norm(b - a)
+            if min(t, 1 - t) > 0.35 * local:
+                inner.append((t, total))
+                nodes.append(x[None])
+                total += 1
+        on_edge[key] = [i for _, i in sorted(inner)]
+    inside = {}
+    edge_nodes = {i for chain in divided_edges.values() for _, i in chain}
+    for t, corners in zip(parent, refined.faces):
+        for i in corners:
+            if i >= count and keep[i] and i not in edge_nodes:
+                inside.setdefault(int(t), set()).add(int(i))
+    points = np.vstack(nodes)
+    crossing = _faces_near(old, size)
+    out, owner = [], []
+    for t, corners in enumerate(old.faces):
+        ring = []
+        for k in range(3):
+            a, b = int(corners[k]), int(corners[(k + 1) % 3])
+            chain = on_edge.get((min(a, b), max(a, b)), [])
+            ring += [a] + (chain if a < b else chain[::-1])
+        free = sorted(inside.get(t, ()))
+        if t in crossing:
+            extra = _rim_nodes(old.vertices[corners], normals[t], points[ring], size)
+            free += list(range(len(points), len(points) + len(extra)))
+            points = np.vstack([points, extra])
+        if len(ring) == 3 and not free:
+            out.append(corners[None])
+            owner.append([t])
+            continue
+        pieces = _triangulate(points, ring, free, normals[t])
+        out.append(pieces)
+        owner.append([t] * len(pieces))
+    faces, owner = np.vstack(out), np.concatenate(owner)
+    used = np.unique(np.concatenate([np.arange(count), faces.ravel()]))
+    new = np.full(len(points), -1)
+    new[used] = np.arange(len(used))
+    return Surface(points[used], new[faces]), owner
+
+
+def _nodes_on_edges(old, refined, parent):
+    """For each old edge that was cut: its nodes as (position from 0 to 1, node), from the smaller vertex on."""
+    count = len(old.vertices)
+    owners = {}
+    for t, corners in zip(parent, refined.faces):
+        for i in corners:
+            if i >= count:
+                owners.setdefault(int(i), set()).add(int(t))
+    edges = {}
+    for i, faces in owners.items():
+        if len(faces) == 2:
+            shared = set.intersection(*(set(old.faces[t].tolist()) for t in faces))
+            a, b = sorted(shared)
+            d = old.vertices[b] - old.vertices[a]
+            t = float((refined.vertices[i] - old.vertices[a]) @ d / (d @ d))
+            edges.setdefault((a, b), []).append((t, i))
+    for t, corners in enumerate(old.faces):  # uncut edges of faces near a rim may still cross it
+        for k in range(3):
+            edges.setdefault(tuple(sorted((int(corners[k]), int(corners[(k + 1) % 3])))), [])
+    return edges
+
+
+def _on_near_side(disc, x, height_limit=1.0):
+    return disc.polar(x)[1] >= -height_limit * disc.radius
+
+
+def _far_from_rims(x, size):
+    far = np.ones(len(x), dtype=bool)
+    wanted = size(x)
+    for disc in size.discs:
+        rho, _ = disc.polar(x)
+        far &= (np.abs(rho - disc.radius) > 0.6 * wanted) | ~_on_near_side(disc, x)
+    return far
+
+
+def _rim_crossings(a, b, size):
+    """Points of the segment a-b on the rims, as (position from 0 to 1, point)."""
+    found = []
+    for disc in size.discs:
+        d, r = b - a, a - disc.point
+        d, r = d - (d @ disc.normal) * disc.normal, r - (r @ disc.normal) * disc.normal
+        p, q, c = d @ d, d @ r, r @ r - disc.radius**2
+        root = q * q - p * c
+        if root > 0:
+            for t in ((-q - np.sqrt(root)) / p, (-q + np.sqrt(root)) / p):
+                x = a + t * (b - a)
+                if 0 < t < 1 and _on_near_side(disc, x):
+                    found.append((t, x))
+    return found
+
+
+def _faces_near(old, size):
+    """Old faces turned towards a disc and near its rim."""
+    near = set()
+    p = old.vertices[old.faces]
+    reach = np.linalg.norm(p - p.mean(axis=1)[:, None], axis=2).max(axis=1)
+    for disc in size.discs:
+        distance = np.linalg.norm(p.mean(axis=1) - disc.point, axis=1)
+        towards = old.face_normals() @ disc.normal > 0.05
+        near |= set(np.flatnonzero((distance < reach + 2 * disc.radius) & towards).tolist())
+    return near
+
+
+def _rim_nodes(corners, normal, ring, size):
+    """Nodes on the rims inside one face, not too near to the nodes of its edges."""
+    inverse = np.linalg.inv(np.stack([corners[0] - corners[2], corners[1] - corners[2], normal], axis=1))
+    tree = cKDTree(ring)
+    found = np.zeros((0, 3))
+    for disc in size.discs:
+        rim = size(disc.point[None] + disc.radius * _tangents(disc.normal)[0])[0]
+        number = int(np.ceil(2 * np.pi * disc.radius / rim))
+        angle = 2 * np.pi * np.arange(number) / number
+        e, f = _tangents(disc.normal)
+        x = disc.point + disc.radius * (np.cos(angle)[:, None] * e + np.sin(angle)[:, None] * f)
+        x = x + (((corners[0] - x) @ normal) / (disc.normal @ normal))[:, None] * disc.normal
+        b = (x - corners[2]) @ inverse.T
+        inside = (b[:, 0] > 0) & (b[:, 1] > 0) & (b[:, 0] + b[:, 1] < 1) & _on_near_side(disc, x)
+        x = x[inside]
+        x = x[tree.query(x)[0] > 0.45 * rim] if len(x) else x
+        if len(x) and len(found):
+            x = x[cKDTree(found).query(x)[0] > 0.45 * rim]
+        found = np.vstack([found, x])
+    return found
+
+
+def _tangents(normal):
+    e = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+    e /= np.linalg.norm(e)
+    return e, np.cross(normal, e)
+
+
+def _triangulate(points, ring, free, normal):
+    """Delaunay triangles of one flat face from the nodes of its edges and inside it, counter-clockwise about `normal`.
+
+    The nodes of the edges are bent outwards by a hair first: exactly on a line they would be no convex hull."""
+    e, f = _tangents(normal)
+    index = np.array(list(ring) + list(free))
+    flat = np.stack([points[index] @ e, points[index] @ f], axis=1)
+    flat -= flat[: len(ring)].mean(axis=0)
+    scale = np.abs(flat).max()
+    flat /= scale
+    edge = flat[: len(ring)]
+    r = np.linalg.norm(edge, axis=1)
+    flat[: len(ring)] = edge * (1 + 1e-5 * (1.5 - r**2))[:, None]
+    triangles = Delaunay(flat).simplices
+    a, b, c = (flat[triangles[:, k]] for k in range(3))
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    triangles = triangles[np.abs(area) > 1e-9]
+    area = area[np.abs(area) > 1e-9]
+    triangles[area < 0] = triangles[area < 0][:, ::-1]
+    return index[triangles]
