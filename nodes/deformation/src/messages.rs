@@ -71,6 +71,7 @@ impl Messages {
         self.law.probe_radius = law.probe_radius_m;
         self.law.depth_offset = law.depth_offset_m;
         self.law.stiffness_factor = law.stiffness_factor;
+        self.law.stiffness_gradient = convert::vector(law.stiffness_gradient_per_m);
         self.law.lateral_stiffness = law.lateral_stiffness_n_per_m;
         match answer {
             Some(answer) => fill_state(&mut self.state, answer),

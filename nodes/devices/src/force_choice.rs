@@ -182,7 +182,7 @@ mod tests {
                 probe_radius_m: 0.005,
                 depth_offset_m: 0.0,
                 stiffness_factor: 1.0,
-                lateral_stiffness_n_per_m: 0.0,
+                ..LocalLaw::default()
             },
             chains: chains(),
         }

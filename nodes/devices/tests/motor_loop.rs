@@ -127,7 +127,7 @@ fn floor(stamp_ns: i64, chains: Arc<ContactLaw>) -> LawCommand {
         probe_radius_m: 0.005,
         depth_offset_m: 0.0,
         stiffness_factor: 1.0,
-        lateral_stiffness_n_per_m: 0.0,
+        ..LocalLaw::default()
     };
     LawCommand { stamp_ns, validity_ns: 100_000_000, local, chains }
 }

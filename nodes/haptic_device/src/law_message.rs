@@ -93,10 +93,12 @@ fn local_law(message: &LawMessage) -> Result<LocalLaw, LawRefusal> {
     };
     let anchor = convert::dvec3(&message.anchor);
     let normal = convert::dvec3_of_vector(&message.normal);
+    let stiffness_gradient_per_m = convert::dvec3_of_vector(&message.stiffness_gradient);
     for (name, finite) in [
         ("anchor", anchor.is_finite()),
         ("normal", normal.is_finite()),
         ("depth_offset", message.depth_offset.is_finite()),
+        ("stiffness_gradient", stiffness_gradient_per_m.is_finite()),
     ] {
         if !finite {
             return Err(LawRefusal::NotFinite(name));
@@ -121,6 +123,7 @@ fn local_law(message: &LawMessage) -> Result<LocalLaw, LawRefusal> {
         probe_radius_m: message.probe_radius,
         depth_offset_m: message.depth_offset,
         stiffness_factor: message.stiffness_factor,
+        stiffness_gradient_per_m,
         lateral_stiffness_n_per_m: message.lateral_stiffness,
     })
 }
@@ -173,6 +176,7 @@ mod tests {
             probe_radius: 0.005,
             depth_offset: 0.0,
             stiffness_factor: 2.0,
+            stiffness_gradient: Vector3 { x: 50.0, y: 0.0, z: 0.0 },
             lateral_stiffness: 0.0,
             formulation: ENERGY,
             rod_length: vec![0.01, 0.02],
@@ -194,8 +198,12 @@ mod tests {
         let command = reader().read(&message()).unwrap();
         assert_eq!((command.stamp_ns, command.validity_ns), (5_000_000_007, 100_000_000));
         let force_n = command.local.force_n(&command.chains, DVec3::Z * 0.013);
-        let expected = 2.0 * command.chains.at_depth(0.002).unwrap().force_n;
-        assert!((force_n - DVec3::Z * expected).length() < 1e-12 && expected > 0.0);
+        let pressed = command.chains.at_depth(0.002).unwrap();
+        let expected = DVec3::new(-50.0 * pressed.energy_j, 0.0, 2.0 * pressed.force_n);
+        assert!((force_n - expected).length() < 1e-12 && pressed.force_n > 0.0);
+        // 10 mm towards the stiff side the factor is 2.5.
+        let aside_n = command.local.force_n(&command.chains, DVec3::new(0.01, 0.0, 0.013)).z;
+        assert!((aside_n - 2.5 * pressed.force_n).abs() < 1e-12);
     }
 
     #[test]
@@ -227,6 +235,7 @@ mod tests {
             (LawMessage { normal: Vector3 { x: 0.0, y: 0.0, z: 1.1 }, ..message() }, "length 1.1"),
             (LawMessage { normal: Vector3::default(), ..message() }, "length 0"),
             (LawMessage { depth_offset: f64::INFINITY, ..message() }, "depth_offset"),
+            (LawMessage { stiffness_gradient: Vector3 { x: 0.0, y: nan, z: 0.0 }, ..message() }, "stiffness_gradient"),
             (LawMessage { stiffness_factor: -1.0, ..message() }, "stiffness_factor is -1"),
             (LawMessage { lateral_stiffness: nan, ..message() }, "lateral_stiffness is NaN"),
             (LawMessage { units: vec![10], ..message() }, "length"),

@@ -176,6 +176,8 @@ impl DeviceSession {
             probe_radius_m: law.probe_radius_m / self.motion_scale,
             depth_offset_m: law.depth_offset_m / self.motion_scale,
             stiffness_factor: law.stiffness_factor,
+            stiffness_gradient_per_m: frame_from_body.rotate(law.stiffness_gradient_per_m)
+                * self.motion_scale,
             lateral_stiffness_n_per_m: law.lateral_stiffness_n_per_m * self.motion_scale,
         }
     }

@@ -27,26 +27,43 @@ pub(crate) struct Grasp {
     /// The probe when the gripper closed.
     anchor: DVec3,
     depth_m: f64,
+    /// Factor on the law at the held point.
+    stiffness_factor: f64,
+    /// Its gradient when the gripper closed, 1/m.
+    stiffness_gradient_per_m: DVec3,
     since_ns: i64,
 }
 
 impl Grasp {
     pub(crate) fn new(body: &Body, proxy: &Proxy, depth_m: f64, stamp_ns: i64, probe: DVec3) -> Self {
         let position = body.mesh().position(proxy.at);
-        Self { at: proxy.at, position, normal: proxy.normal, anchor: probe, depth_m, since_ns: stamp_ns }
+        let (stiffness_factor, stiffness_gradient_per_m) = body.stiffness_under(proxy);
+        Self {
+            at: proxy.at,
+            position,
+            normal: proxy.normal,
+            anchor: probe,
+            depth_m,
+            stiffness_factor,
+            stiffness_gradient_per_m,
+            since_ns: stamp_ns,
+        }
     }
 
     /// The law of this grasp at a stamp: with r the probe's way since the gripper closed, depth -r.n, plus
-    /// what remains of the depth at which it closed; `-k_lat r_t` across.
+    /// what remains of the depth at which it closed; `-k_lat r_t` across. A held body is as stiff as at the held point; what
+    /// pushed the probe to where the body is softer fades with the depth, so that closing the gripper changes no force.
     pub(crate) fn local_law(&self, tissue: &Tissue, stamp_ns: i64) -> LocalLaw {
+        let left = 1.0 - ramp(self.since_ns, stamp_ns);
         LocalLaw {
             mode: Mode::Grasp,
             anchor: self.anchor,
             normal: self.normal,
             probe_radius_m: tissue.probe_radius_m(),
-            depth_offset_m: self.depth_m * (1.0 - ramp(self.since_ns, stamp_ns)),
-            stiffness_factor: 1.0,
-            lateral_stiffness_n_per_m: tissue.lateral_stiffness_n_per_m(),
+            depth_offset_m: self.depth_m * left,
+            stiffness_factor: self.stiffness_factor,
+            stiffness_gradient_per_m: self.stiffness_gradient_per_m * left,
+            lateral_stiffness_n_per_m: tissue.lateral_stiffness_n_per_m() * self.stiffness_factor,
         }
     }
 

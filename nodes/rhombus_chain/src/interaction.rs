@@ -135,7 +135,7 @@ impl Interaction {
                 (Some(held.impression(&law, probe_in_body)), law)
             }
             (None, Some((proxy, depth_m))) => {
-                (Some(press(body, proxy, *depth_m)), contact_law(tissue, proxy, probe_in_body))
+                (Some(press(body, proxy, *depth_m)), contact_law(body, tissue, proxy, probe_in_body))
             }
             (None, None) => (None, LocalLaw::default()),
         };
@@ -206,20 +206,19 @@ impl Interaction {
         let Ok(response) = tissue.law().at_depth(impression.depth_m) else {
             return Step { force_n: fading_n, proxy: probe, ..Step::default() };
         };
-        let normal_force_n = response.force_n * share;
-        let lateral_stiffness_n_per_m = local_law.lateral_stiffness_n_per_m * share;
-        let own_n = impression.normal * normal_force_n - impression.lateral_m * lateral_stiffness_n_per_m;
+        let local_law = local_law.scaled(share);
+        let factor = local_law.factor(probe);
         Step {
             mode: local_law.mode,
-            force_n: fading_n + own_n,
-            normal_force_n,
+            force_n: fading_n + local_law.force_of(&response, probe),
+            normal_force_n: response.force_n * factor,
             depth_m: impression.depth_m,
-            stiffness_n_per_m: response.stiffness_n_per_m * share,
+            stiffness_n_per_m: response.stiffness_n_per_m * factor,
             saturated: response.saturated,
             surface_point: Some(impression.at),
             proxy: impression.position,
             normal: impression.normal,
-            local_law: LocalLaw { stiffness_factor: share, lateral_stiffness_n_per_m, ..local_law },
+            local_law,
         }
     }
 }
@@ -244,12 +243,15 @@ fn press(body: &Body, proxy: &Proxy, depth_m: f64) -> Impression {
 
 /// The tangent plane under the probe. Its anchor is taken below the probe, so that the plane is at the
 /// proxy's distance also where the proxy is not straight below.
-fn contact_law(tissue: &Tissue, proxy: &Proxy, probe: DVec3) -> LocalLaw {
+fn contact_law(body: &Body, tissue: &Tissue, proxy: &Proxy, probe: DVec3) -> LocalLaw {
+    let (stiffness_factor, stiffness_gradient_per_m) = body.stiffness_under(proxy);
     LocalLaw {
         mode: Mode::Contact,
         anchor: probe - proxy.normal * proxy.distance_m,
         normal: proxy.normal,
         probe_radius_m: tissue.probe_radius_m(),
+        stiffness_factor,
+        stiffness_gradient_per_m,
         ..LocalLaw::default()
     }
 }

@@ -2,7 +2,10 @@
 
 use glam::DVec3;
 
-use crate::contact_law::ContactLaw;
+use crate::chain::finite;
+use crate::contact_law::{ContactLaw, LawResponse};
+
+const LARGEST: DVec3 = DVec3::splat(f64::MAX);
 
 /// What the probe does to the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,8 +36,11 @@ pub struct LocalLaw {
     pub probe_radius_m: f64,
     /// Added to the depth, in metres: what remains of the depth at which a grasp began. 0 in contact.
     pub depth_offset_m: f64,
-    /// The law's force is multiplied by this.
+    /// The law's force and energy are multiplied by this at the anchor ...
     pub stiffness_factor: f64,
+    /// ... and by this much more for each metre of the probe from there, 1/m; never by less than 0. Perpendicular to the
+    /// normal. Zero where the body has no regional stiffness.
+    pub stiffness_gradient_per_m: DVec3,
     /// Grasp: force towards the anchor for each metre across the normal, in N/m.
     pub lateral_stiffness_n_per_m: f64,
 }
@@ -53,9 +59,16 @@ impl LocalLaw {
         }
     }
 
+    /// What the law's force and energy are multiplied by for a probe at `probe`.
+    #[must_use]
+    #[inline]
+    pub fn factor(&self, probe: DVec3) -> f64 {
+        (self.stiffness_factor + self.stiffness_gradient_per_m.dot(probe - self.anchor)).max(0.0)
+    }
+
     /// Force on the hand in newton for a probe at `probe`, both in the body frame. Real-time safe.
     ///
-    /// Zero for a position that is not finite.
+    /// The gradient of an energy: `-grad(factor E) - k_lat r_t`. Zero for a position that is not finite.
     #[must_use]
     #[inline]
     pub fn force_n(&self, law: &ContactLaw, probe: DVec3) -> DVec3 {
@@ -66,10 +79,27 @@ impl LocalLaw {
         let Ok(response) = law.at_depth(depth_m) else {
             return DVec3::ZERO;
         };
-        let along = self.normal * (self.stiffness_factor * response.force_n);
-        match self.mode {
-            Mode::Grasp => along - self.across(probe) * self.lateral_stiffness_n_per_m,
-            Mode::Contact | Mode::None => along,
+        self.force_of(&response, probe)
+    }
+
+    /// The force for a probe at `probe`, where the law's answer is `response`. Finite for every finite position.
+    #[inline]
+    pub(crate) fn force_of(&self, response: &LawResponse, probe: DVec3) -> DVec3 {
+        let factor = self.factor(probe);
+        let along = self.normal * finite(factor * response.force_n);
+        // A factor that is kept at 0 has no gradient.
+        let gradient_per_m = if factor > 0.0 { self.stiffness_gradient_per_m } else { DVec3::ZERO };
+        let across = self.across(probe) * self.lateral_stiffness_n_per_m + gradient_per_m * response.energy_j;
+        (along - across.clamp(-LARGEST, LARGEST)).clamp(-LARGEST, LARGEST)
+    }
+
+    /// The same law with a share of its forces.
+    pub(crate) fn scaled(&self, share: f64) -> Self {
+        Self {
+            stiffness_factor: self.stiffness_factor * share,
+            stiffness_gradient_per_m: self.stiffness_gradient_per_m * share,
+            lateral_stiffness_n_per_m: self.lateral_stiffness_n_per_m * share,
+            ..*self
         }
     }
 

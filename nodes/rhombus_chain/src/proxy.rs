@@ -40,6 +40,8 @@ pub(crate) struct Proxy {
     pub(crate) normal: DVec3,
     /// Distance of the probe's centre from the surface, negative inside.
     pub(crate) distance_m: f64,
+    /// Found along interpolated normals; otherwise it is the walk's end.
+    pub(crate) is_projection: bool,
 }
 
 /// The proxy of a probe at `probe` that was last at `from`; `None` when the probe has leapt too far to be
@@ -52,7 +54,7 @@ pub(crate) fn follow(mesh: &SurfaceMesh, from: SurfacePoint, probe: DVec3) -> Op
         let offset = probe - mesh.position(near);
         let distance = length(offset);
         let distance_m = if offset.dot(normal) < 0.0 { -distance } else { distance };
-        Proxy { at: near, normal, distance_m }
+        Proxy { at: near, normal, distance_m, is_projection: false }
     }))
 }
 
@@ -119,7 +121,8 @@ fn project(mesh: &SurfaceMesh, mut face: u32, probe: DVec3) -> Option<Proxy> {
 fn proxy(mesh: &SurfaceMesh, at: SurfacePoint, probe: DVec3) -> Option<Proxy> {
     let [a, b, c] = mesh.corner_normals(at.face);
     let normal = unit(a * at.barycentric.x + b * at.barycentric.y + c * at.barycentric.z)?;
-    Some(Proxy { at, normal, distance_m: (probe - mesh.position(at)).dot(normal) })
+    let distance_m = (probe - mesh.position(at)).dot(normal);
+    Some(Proxy { at, normal, distance_m, is_projection: true })
 }
 
 /// Weights of the corners at which `probe` lies on the triangle moved along its corner normals by some height
