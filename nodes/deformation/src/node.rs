@@ -51,7 +51,7 @@ impl Deformation {
     fn new(kit: &mut NodeKit) -> Result<Deformation> {
         let scene = Scene::from_parameters(kit.parameters().clone())?;
         let tissue = scene.tissue()?;
-        let loaded = scene.load_body().context("body.mesh")?;
+        let loaded = scene.load_body().context("body")?;
         for (name, value) in model::computed(tissue.law()) {
             kit.show_computed(name, value)?;
         }

@@ -235,7 +235,10 @@ mod tests {
             (LawMessage { normal: Vector3 { x: 0.0, y: 0.0, z: 1.1 }, ..message() }, "length 1.1"),
             (LawMessage { normal: Vector3::default(), ..message() }, "length 0"),
             (LawMessage { depth_offset: f64::INFINITY, ..message() }, "depth_offset"),
-            (LawMessage { stiffness_gradient: Vector3 { x: 0.0, y: nan, z: 0.0 }, ..message() }, "stiffness_gradient"),
+            (
+                LawMessage { stiffness_gradient: Vector3 { x: 0.0, y: nan, z: 0.0 }, ..message() },
+                "stiffness_gradient",
+            ),
             (LawMessage { stiffness_factor: -1.0, ..message() }, "stiffness_factor is -1"),
             (LawMessage { lateral_stiffness: nan, ..message() }, "lateral_stiffness is NaN"),
             (LawMessage { units: vec![10], ..message() }, "length"),

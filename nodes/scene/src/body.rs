@@ -6,7 +6,7 @@ use glam::DVec3;
 use rhombus_chain::Body;
 
 use crate::mesh_file::MeshFile;
-use crate::{MeshSource, Scene, SceneError};
+use crate::{MeshSource, Problem, Scene, SceneError, read_stiffness_map};
 
 /// A body, and what its owner should know about it.
 #[derive(Debug)]
@@ -47,10 +47,11 @@ impl fmt::Display for Warning {
 const LIKELY_EXTENT_M: std::ops::RangeInclusive<f64> = 0.005..=2.0;
 
 impl Scene {
-    /// Reads or generates the rest surface of `body.mesh`, in metres.
+    /// Reads or generates the rest surface of `body.mesh`, in metres, and reads its `body.stiffness_map`.
     ///
     /// # Errors
-    /// The mesh file cannot be read or is not a closed, manifold, outward oriented surface.
+    /// The mesh file cannot be read or is not a closed, manifold, outward oriented surface; the map cannot be read or does
+    /// not fit the mesh.
     pub fn load_body(&self) -> Result<LoadedBody, SceneError> {
         let scale = self.body.scale;
         let (name, file) = match &self.body.mesh {
@@ -60,7 +61,14 @@ impl Scene {
         let mesh = file.surface(scale)?;
         let [low, high] = mesh.extents();
         let warnings = unlikely_size(name, high - low, scale).into_iter().collect();
-        Ok(LoadedBody { body: Body::new(mesh), warnings })
+        let mut body = Body::new(mesh);
+        if let Some(path) = &self.body.stiffness_map {
+            let map = read_stiffness_map(path, body.mesh())?;
+            body = body.with_stiffness(map).map_err(|error| {
+                self.parameters().error("body.stiffness_map", Problem::Stiffness(error.to_string()))
+            })?;
+        }
+        Ok(LoadedBody { body, warnings })
     }
 }
 

@@ -139,6 +139,9 @@ pub enum Problem {
     /// A mesh file that is not a closed triangle surface.
     #[error("{0}")]
     Mesh(String),
+    /// A stiffness map that does not fit its mesh, or is none.
+    #[error("{0}")]
+    Stiffness(String),
 }
 
 fn did_you_mean(nearest: Option<&'static str>) -> String {

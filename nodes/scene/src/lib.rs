@@ -33,6 +33,7 @@ mod body;
 mod chains;
 mod error;
 pub mod generate;
+mod haptic_loop;
 mod mesh_file;
 mod mesh_source;
 mod origin;
@@ -43,6 +44,7 @@ pub mod schema;
 mod sections;
 mod settings;
 mod sites;
+mod stiffness_file;
 mod value;
 mod yaml;
 
@@ -62,4 +64,5 @@ pub use settings::{
     ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, VisualizationSettings,
 };
 pub use sites::{Site, sites};
+pub use stiffness_file::{StiffnessFile, read_stiffness_map};
 pub use value::Value;

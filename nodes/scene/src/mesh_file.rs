@@ -1,6 +1,6 @@
 //! Mesh files: Wavefront OBJ in, a checked surface out; and back.
 //!
-//! Only positions and faces are used; groups, materials, normals and texture coordinates are skipped. Vertices keep
+//! Only positions, faces and the vertices' colours are used; groups, materials, normals and texture coordinates are skipped. Vertices keep
 //! the numbers they have in the file, so that messages, recordings and other programs mean the same vertex.
 
 mod statements;
@@ -24,6 +24,8 @@ pub struct MeshFile {
     /// Triangles in file order, vertices counted from 0; a face with more corners is cut into a fan, which is right
     /// for convex faces.
     pub triangles: Vec<[u32; 3]>,
+    /// Red, green and blue of each vertex, as written; none where its line has no colour.
+    colours: Vec<Option<[f64; 3]>>,
     vertex_lines: Vec<u32>,
     triangle_lines: Vec<u32>,
 }
@@ -51,26 +53,55 @@ impl MeshFile {
     /// # Errors
     /// As [`MeshFile::read`].
     pub fn parse(name: &str, text: &[u8]) -> Result<MeshFile, SceneError> {
-        let Statements { vertices, triangles, vertex_lines, triangle_lines } = Statements::read(text)
-            .map_err(|(line, message)| SceneError {
+        let Statements { vertices, triangles, colours, vertex_lines, triangle_lines } =
+            Statements::read(text).map_err(|(line, message)| SceneError {
                 file: name.to_owned(),
                 line,
                 key: None,
                 problem: Box::new(Problem::Mesh(message)),
             })?;
-        Ok(MeshFile { name: name.to_owned(), vertices, triangles, vertex_lines, triangle_lines })
+        Ok(MeshFile { name: name.to_owned(), vertices, triangles, colours, vertex_lines, triangle_lines })
     }
 
     /// A generated body with its default number of vertices, as if it had been read from a file of the body's name.
     pub fn generated(kind: BodyKind) -> MeshFile {
         let Shape { vertices, triangles } = generate::body(kind, kind.default_vertices());
         let name = kind.name().to_owned();
-        MeshFile { name, vertices, triangles, vertex_lines: Vec::new(), triangle_lines: Vec::new() }
+        let (colours, vertex_lines, triangle_lines) = (Vec::new(), Vec::new(), Vec::new());
+        MeshFile { name, vertices, triangles, colours, vertex_lines, triangle_lines }
     }
 
     /// Counts and measures, whatever is wrong with the surface.
     pub fn inspect(&self) -> Inspection {
         inspect(&self.vertices, &self.triangles)
+    }
+
+    /// How light each vertex is painted, 0 (black) to 1 (white): 0.2126 red + 0.7152 green + 0.0722 blue.
+    ///
+    /// # Errors
+    /// A vertex without a colour, or with one outside 0 to 1; the error names its line.
+    pub fn luminances(&self) -> Result<Vec<f64>, SceneError> {
+        let error = |vertex: usize, found: String| SceneError {
+            file: self.name.clone(),
+            line: self.vertex_lines.get(vertex).map(|line| *line as usize),
+            key: None,
+            problem: Box::new(Problem::Mesh(format!(
+                "vertex {vertex} (counted from 0) has {found}; accepted: v x y z r g b with colours from 0 to 1 for every \
+                 vertex"
+            ))),
+        };
+        (0..self.vertices.len())
+            .map(|vertex| match self.colours.get(vertex) {
+                Some(Some(colour)) if colour.iter().all(|part| (0.0..=1.0).contains(part)) => {
+                    let [red, green, blue] = colour;
+                    Ok(0.2126 * red + 0.7152 * green + 0.0722 * blue)
+                }
+                Some(Some([red, green, blue])) => {
+                    Err(error(vertex, format!("the colour {red} {green} {blue}")))
+                }
+                _ => Err(error(vertex, "no colour".to_owned())),
+            })
+            .collect()
     }
 
     /// The surface in metres: coordinates times `scale`, checked to be closed, manifold and outward oriented.

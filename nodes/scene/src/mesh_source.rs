@@ -1,4 +1,4 @@
-//! `body.mesh`: from what a person wrote to a generated body or a file that can be opened.
+//! `body.mesh` and `body.stiffness_map`: from what a person wrote to a generated body or a file that can be opened.
 
 use std::path::{Path, PathBuf};
 
@@ -7,8 +7,7 @@ use crate::{BodyKind, MeshSource, Parameters, Problem, SceneError};
 const SCHEME: &str = "package://";
 
 impl MeshSource {
-    /// Built-in names first; then `package://`; then the path, beside the parameter file when it is relative. Whether
-    /// the file exists is found out by who opens it.
+    /// Built-in names first; then as every file.
     pub(crate) fn resolve(p: &Parameters) -> Result<MeshSource, SceneError> {
         let text = p.text("body.mesh")?;
         if let Ok(kind) = text.parse::<BodyKind>() {
@@ -21,26 +20,38 @@ impl MeshSource {
                 Problem::OutOfRange { value: "\"\"".to_owned(), index: None, accepted },
             ));
         }
-        if let Some(rest) = text.strip_prefix(SCHEME) {
-            let prefixes = std::env::var("AMENT_PREFIX_PATH").unwrap_or_default();
-            return in_package(rest, &prefixes).map(MeshSource::File).ok_or_else(|| {
-                let message = format!(
-                    "{text:?} is in no package of AMENT_PREFIX_PATH ({prefixes}); accepted: package://PACKAGE/PATH of \
-                     an installed package"
-                );
-                p.error("body.mesh", Problem::Model(message))
-            });
-        }
-        let path = Path::new(text);
-        let directories = p.origin().directories();
-        let candidates = || directories.iter().map(|directory| directory.join(path));
-        let found = candidates().find(|candidate| candidate.exists()).or_else(|| candidates().next());
-        Ok(MeshSource::File(if path.is_absolute() {
-            path.to_owned()
-        } else {
-            found.unwrap_or(path.to_owned())
-        }))
+        resolved(p, "body.mesh", text).map(MeshSource::File)
     }
+}
+
+/// The file of `body.stiffness_map`; none when it is "".
+pub(crate) fn stiffness_map(p: &Parameters) -> Result<Option<PathBuf>, SceneError> {
+    let key = "body.stiffness_map";
+    let text = p.text(key)?;
+    if text.is_empty() { Ok(None) } else { resolved(p, key, text).map(Some) }
+}
+
+/// `package://` first; then the path, beside the parameter file when it is relative. Whether the file exists is found
+/// out by who opens it.
+fn resolved(p: &Parameters, key: &str, text: &str) -> Result<PathBuf, SceneError> {
+    if let Some(rest) = text.strip_prefix(SCHEME) {
+        let prefixes = std::env::var("AMENT_PREFIX_PATH").unwrap_or_default();
+        return in_package(rest, &prefixes).ok_or_else(|| {
+            let message = format!(
+                "{text:?} is in no package of AMENT_PREFIX_PATH ({prefixes}); accepted: package://PACKAGE/PATH of \
+                 an installed package"
+            );
+            p.error(key, Problem::Model(message))
+        });
+    }
+    let path = Path::new(text);
+    if path.is_absolute() {
+        return Ok(path.to_owned());
+    }
+    let directories = p.origin().directories();
+    let candidates = || directories.iter().map(|directory| directory.join(path));
+    let found = candidates().find(|candidate| candidate.exists()).or_else(|| candidates().next());
+    Ok(found.unwrap_or(path.to_owned()))
 }
 
 /// `PACKAGE/PATH` is `PREFIX/share/PACKAGE/PATH` of the first prefix that has it.

@@ -153,6 +153,14 @@ impl Scene {
             ),
             Some(mesh.memory_bytes()),
         );
+        match (&self.body.stiffness_map, body.stiffness()) {
+            (Some(path), Some(map)) => {
+                let (low, high) = map.range();
+                let what = format!("{}: {low} to {high} times the contact law", path.display());
+                plan.build("stiffness map", Node::Deformation, what, Some(map.memory_bytes()));
+            }
+            _ => plan.leave_out("stiffness map", "body.stiffness_map is \"\""),
+        }
         let index_bytes = body.index().memory_bytes();
         plan.build(
             "spatial index",

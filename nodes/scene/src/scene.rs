@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rhombus_chain::{ContactLaw, ParameterError, Pose, SurfaceParameters, Tissue, TissueError};
 
+use crate::mesh_source::stiffness_map;
 use crate::settings::{
     BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
     ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, VisualizationSettings,
@@ -70,6 +71,7 @@ impl Scene {
             body: BodySettings {
                 mesh: MeshSource::resolve(&p)?,
                 scale: p.double("body.scale")?,
+                stiffness_map: stiffness_map(&p)?,
                 frame_id: p.text("body.frame_id")?.to_owned(),
                 scene_from_body: pose(&p, "body.pose")?,
             },

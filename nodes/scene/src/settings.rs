@@ -13,6 +13,8 @@ pub struct BodySettings {
     pub mesh: MeshSource,
     /// Factor that makes mesh coordinates metres.
     pub scale: f64,
+    /// Factors on the contact law; none where it is the same everywhere. The path is resolved.
+    pub stiffness_map: Option<PathBuf>,
     /// Frame of the rest surface.
     pub frame_id: String,
     /// Pose of the body in the scene.

@@ -5,8 +5,8 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use rhombus_chain::SurfaceMesh;
-use scene::{BodyKind, Origin, Parameters, Plan, Scene, TopicState, Value, generate};
+use rhombus_chain::{StiffnessMap, SurfaceMesh};
+use scene::{BodyKind, Origin, Parameters, Plan, Scene, StiffnessFile, TopicState, Value, generate};
 
 thread_local! {
     static HELD: Cell<isize> = const { Cell::new(0) };
@@ -116,6 +116,26 @@ fn viewer_boundary_and_clutch_are_left_out_by_their_parameters() {
     for part in ["viewer", "drawn chains", "boundary", "clutch"] {
         assert!(full.part(part).is_some() && !full.leaves_out(part), "{part}");
     }
+}
+
+#[test]
+fn a_stiffness_map_is_there_only_when_it_is_named() {
+    let without = plan(&[]);
+    assert!(without.leaves_out("stiffness map") && without.part("stiffness map").is_none());
+    let liver = generate::body(BodyKind::Liver, BodyKind::Liver.default_vertices());
+    let mut factors = vec![1.0; liver.vertices.len()];
+    factors[17] = 4.5;
+    let file = tempfile::NamedTempFile::new().expect("a file");
+    std::fs::write(file.path(), StiffnessFile { comment: "a nodule", factors: &factors }.to_string())
+        .expect("written");
+    let named = scene(&[("body.stiffness_map", Value::String(file.path().display().to_string()))]);
+    let with = named.plan().expect("a plan");
+    let part = with.part("stiffness map").expect("built");
+    assert!(part.what.ends_with(": 1 to 4.5 times the contact law"), "{}", part.what);
+    let mesh = SurfaceMesh::new(liver.vertices, liver.triangles).expect("a liver");
+    let (map, held) = held(|| StiffnessMap::new(factors, &mesh));
+    assert!(map.is_ok());
+    assert_eq!(held + 8 * mesh.vertices().len() as isize, bytes(&with, "stiffness map") as isize);
 }
 
 #[test]

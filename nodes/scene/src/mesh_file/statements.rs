@@ -46,6 +46,8 @@ type Fault = (Option<usize>, String);
 pub(super) struct Statements {
     pub(super) vertices: Vec<DVec3>,
     pub(super) triangles: Vec<[u32; 3]>,
+    /// Red, green, blue of each vertex, where its line has them.
+    pub(super) colours: Vec<Option<[f64; 3]>>,
     pub(super) vertex_lines: Vec<u32>,
     pub(super) triangle_lines: Vec<u32>,
 }
@@ -64,7 +66,9 @@ impl Statements {
             match words.next() {
                 None => {}
                 Some("v") => {
-                    statements.vertices.push(vertex(words).map_err(fault)?);
+                    let (position, colour) = vertex(words).map_err(fault)?;
+                    statements.vertices.push(position);
+                    statements.colours.push(colour);
                     statements.vertex_lines.push(short(line));
                 }
                 Some("f") => {
@@ -137,9 +141,9 @@ fn without_comment(line: &[u8]) -> String {
     String::from_utf8_lossy(statement).into_owned()
 }
 
-/// `x y z`, then possibly a weight or a colour, which are not used.
-fn vertex<'a>(words: impl Iterator<Item = &'a str>) -> Result<DVec3, String> {
-    let mut position = [0.0; 3];
+/// `x y z`, then possibly a weight, which is not used, or red, green and blue.
+fn vertex<'a>(words: impl Iterator<Item = &'a str>) -> Result<(DVec3, Option<[f64; 3]>), String> {
+    let mut numbers = [0.0; 6];
     let mut count = 0;
     for word in words {
         let number = word.parse::<f64>().ok().filter(|number| number.is_finite());
@@ -149,13 +153,16 @@ fn vertex<'a>(words: impl Iterator<Item = &'a str>) -> Result<DVec3, String> {
                 shortened(word)
             ));
         };
-        if let Some(coordinate) = position.get_mut(count) {
-            *coordinate = number;
+        if let Some(place) = numbers.get_mut(count) {
+            *place = number;
         }
         count += 1;
     }
     match count {
-        3.. => Ok(DVec3::from_array(position)),
+        3.. => {
+            let [x, y, z, red, green, blue] = numbers;
+            Ok((DVec3::new(x, y, z), (count == 6).then_some([red, green, blue])))
+        }
         _ => Err(format!("a vertex with {count} coordinates; accepted: v x y z")),
     }
 }

@@ -28,6 +28,17 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         help: "Factor on the mesh's coordinates that makes them metres (0.001 for a mesh in millimetres).",
     },
     ParameterSpec {
+        name: "body.stiffness_map",
+        kind: Kind::String,
+        unit: "",
+        default: DefaultValue::String(""),
+        check: Check::Any,
+        length: Length::Any,
+        live: false,
+        owners: &[Node::Deformation],
+        help: "CSV file with a factor on the contact law for each vertex of the mesh (path as body.mesh); \"\": the law is the same everywhere.",
+    },
+    ParameterSpec {
         name: "body.frame_id",
         kind: Kind::String,
         unit: "",

@@ -1,0 +1,82 @@
+//! `body.stiffness_map`: a CSV file with one factor on the contact law for each vertex of the mesh; in and out.
+
+use std::fmt;
+use std::path::Path;
+
+use rhombus_chain::{StiffnessMap, StiffnessMapError, SurfaceMesh};
+
+use crate::{Problem, SceneError};
+
+const KEY: &str = "body.stiffness_map";
+const HEADER: &str = "factor";
+const ACCEPTED: &str = "accepted: a line \"factor\", then one number from 0.001 to 1000 for each vertex of the mesh, in its order";
+
+/// Reads the factors for `mesh`: `#` comments and empty lines are skipped, the header is `factor`, then one number in a line.
+///
+/// # Errors
+/// The file cannot be read, has another header, a line that is no number from 0.001 to 1000, or another number of lines than
+/// the mesh has vertices; the error names the line.
+pub fn read_stiffness_map(path: &Path, mesh: &SurfaceMesh) -> Result<StiffnessMap, SceneError> {
+    let error = |line: Option<usize>, problem: Problem| SceneError {
+        file: path.display().to_string(),
+        line,
+        key: Some(KEY.to_owned()),
+        problem: Box::new(problem),
+    };
+    let bytes = std::fs::read(path).map_err(|fault| error(None, Problem::Unreadable(fault)))?;
+    let text = String::from_utf8_lossy(&bytes);
+    let mut rows = rows(&text);
+    match rows.next() {
+        None => return Err(error(None, Problem::Empty { accepted: ACCEPTED })),
+        Some((_, HEADER)) => {}
+        Some((line, other)) => {
+            let message = format!("header {:?} is not accepted; {ACCEPTED}", shortened(other));
+            return Err(error(Some(line), Problem::Stiffness(message)));
+        }
+    }
+    let (mut factors, mut lines) = (Vec::new(), Vec::new());
+    for (line, row) in rows {
+        let number = row.parse::<f64>().map_err(|_| {
+            let message =
+                format!("factor {:?} is not accepted; accepted: a number from 0.001 to 1000", shortened(row));
+            error(Some(line), Problem::Stiffness(message))
+        })?;
+        factors.push(number);
+        lines.push(line);
+    }
+    StiffnessMap::new(factors, mesh).map_err(|fault| {
+        let line = match fault {
+            StiffnessMapError::Factor { vertex, .. } => lines.get(vertex).copied(),
+            StiffnessMapError::Count { .. } | StiffnessMapError::OtherMesh { .. } => None,
+        };
+        error(line, Problem::Stiffness(fault.to_string()))
+    })
+}
+
+/// What is neither comment nor empty, with its line counted from 1.
+fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
+    lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+}
+
+fn shortened(text: &str) -> String {
+    text.chars().take(40).collect()
+}
+
+/// Factors as the text of such a file; they read back to the same bits.
+pub struct StiffnessFile<'a> {
+    /// Comment lines at the top, without `#`.
+    pub comment: &'a str,
+    /// One factor for each vertex of the mesh, in its order.
+    pub factors: &'a [f64],
+}
+
+impl fmt::Display for StiffnessFile<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for line in self.comment.lines() {
+            writeln!(f, "# {line}")?;
+        }
+        writeln!(f, "{HEADER}")?;
+        self.factors.iter().try_for_each(|factor| writeln!(f, "{factor:?}"))
+    }
+}
