@@ -24,6 +24,7 @@ mod parameters;
 mod pose;
 mod proxy;
 mod rings;
+pub mod stability;
 mod stamp_rate;
 mod stiffness_map;
 mod sums;
