@@ -6,11 +6,16 @@ towards it, because the pressure under a rigid punch grows without bound there. 
 are: every new node lies on an old face or an old edge.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial import Delaunay, cKDTree
+
+# A row of touched nodes presses a little wider than it is: next to the rim the first element outside follows. With
+# elements of size h at the rim a flat punch on a half-space acts as one wider by RIM_SET_BACK h (measured by
+# validate.py), so the rim of the mesh is set back by that much.
+RIM_SET_BACK = 0.19
 
 
 @dataclass
@@ -74,23 +79,23 @@ class Disc:
 
 @dataclass
 class SizeField:
-    """Edge length wanted at a point: `rim` at the rims of the discs, growing by `growth` per metre away from them, never
-    above `inside` within a disc."""
+    """Edge length wanted at a point: radius / `cells` at the rim of a disc, growing by `growth` per metre away from it, and
+    never above `inside` radii within a disc (default: 3 / cells, at most a third)."""
 
-    discs: list
-    rim: dict = field(default_factory=dict)
-    inside: float = 1 / 6
-    growth: float = 0.35
+    discs: list[Disc]
+    cells: float
+    inside: float | None = None
+    growth: float = 0.5
 
     def __call__(self, x: np.ndarray) -> np.ndarray:
         size = np.full(len(x), np.inf)
+        inside = self.inside or min(3 / self.cells, 1 / 3)
         for disc in self.discs:
             rho, height = disc.polar(x)
             below = np.maximum(-height - 0.5 * disc.radius, 0.0)
-            away = np.hypot(rho - disc.radius, below)
-            centre = np.hypot(np.maximum(rho - disc.radius, 0.0), below)
-            rim = self.rim.get(id(disc), disc.radius / 24)
-            size = np.minimum(size, np.minimum(rim + self.growth * away, self.inside * disc.radius + self.growth * centre))
+            rim = disc.radius / self.cells + self.growth * np.hypot(rho - disc.radius, below)
+            centre = inside * disc.radius + self.growth * np.hypot(np.maximum(rho - disc.radius, 0.0), below)
+            size = np.minimum(size, np.minimum(rim, centre))
         return size
 
 
@@ -104,7 +109,6 @@ def divide(surface: Surface, size: SizeField) -> tuple[Surface, np.ndarray]:
 
 def _bisect(surface: Surface, size: SizeField):
     """Longest-edge bisection, conforming: a triangle is cut at its longest edge only together with its neighbour's cut."""
-    vertices = [tuple(p) for p in surface.vertices]
     points = surface.vertices.copy()
     faces = surface.faces.copy()
     parent = np.arange(len(faces))
@@ -131,22 +135,21 @@ def _bisect(surface: Surface, size: SizeField):
         ends = np.stack([cut // (len(points) + 1), cut % (len(points) + 1)], axis=1)
         middle = {int(k): len(points) + i for i, k in enumerate(cut)}
         points = np.vstack([points, 0.5 * (points[ends[:, 0]] + points[ends[:, 1]])])
+        touched = np.isin(key, cut).any(axis=1)
         out, owner = [], []
-        for t in range(len(faces)):
+        for t in np.flatnonzero(touched):
             k = int(longest[t])
-            pieces = [tuple(np.roll(faces[t], -k))]
-            mids = [middle.get(int(key[t, (k + j) % 3])) for j in range(3)]
-            if mids[0] is not None:
-                a, b, c = pieces[0]
-                m = mids[0]
-                pieces = [(a, m, c), (m, b, c)]
-                if mids[2] is not None:
-                    pieces = [(a, m, mids[2]), (m, c, mids[2]), pieces[1]]
-                if mids[1] is not None:
-                    pieces = pieces[:-1] + [(m, b, mids[1]), (m, mids[1], c)]
+            (a, b, c), m = np.roll(faces[t], -k), middle[int(key[t, k])]
+            pieces = [(a, m, c), (m, b, c)]
+            over_bc, over_ca = (middle.get(int(key[t, (k + j) % 3])) for j in (1, 2))
+            if over_ca is not None:
+                pieces = [(a, m, over_ca), (m, c, over_ca), pieces[1]]
+            if over_bc is not None:
+                pieces = pieces[:-1] + [(m, b, over_bc), (m, over_bc, c)]
             out += pieces
             owner += [parent[t]] * len(pieces)
-        faces, parent = np.array(out, dtype=np.int64), np.array(owner)
+        faces = np.vstack([faces[~touched], np.array(out, dtype=np.int64)])
+        parent = np.concatenate([parent[~touched], np.array(owner, dtype=np.int64)])
 
 
 def _follow_rims(old: Surface, refined: Surface, parent: np.ndarray, size: SizeField):
@@ -154,36 +157,37 @@ def _follow_rims(old: Surface, refined: Surface, parent: np.ndarray, size: SizeF
     count = len(old.vertices)
     points = refined.vertices
     normals = old.face_normals()
-    divided_edges = _nodes_on_edges(old, refined, parent)
+    crossing = _faces_near(old, size)
+    divided = np.bincount(parent, minlength=len(old.faces)) > 1
+    pieces = divided[parent]
+    edge_chains = _nodes_on_edges(old, refined, parent, np.flatnonzero(pieces))
+    for t in crossing:  # an edge that was not cut may still cross a rim
+        for a, b in zip(old.faces[t], np.roll(old.faces[t], -1)):
+            edge_chains.setdefault((int(min(a, b)), int(max(a, b))), [])
     keep = np.ones(len(points), dtype=bool)
     keep[count:] = _far_from_rims(points[count:], size)
-    nodes = [points]
-    total = len(points)
-    on_edge = {}
-    for key, inner in divided_edges.items():
-        a, b = points[key[0]], points[key[1]]
-        added = _rim_crossings(a, b, size)
-        inner = [(t, i) for t, i in inner if keep[i]]
-        for t, x in added:
-            local = size(x[None])[0] / np.linalg.norm(b - a)
-            if min(t, 1 - t) > 0.35 * local:
-                inner.append((t, total))
-                nodes.append(x[None])
+    added, total, on_edge = [points], len(points), {}
+    for (a, b), chain in edge_chains.items():
+        start, end = points[a], points[b]
+        chain = [(t, i) for t, i in chain if keep[i]]
+        for t, x in _rim_crossings(start, end, size):
+            if min(t, 1 - t) * np.linalg.norm(end - start) > 0.35 * size(x[None])[0]:
+                chain.append((t, total))
+                added.append(x[None])
                 total += 1
-        on_edge[key] = [i for _, i in sorted(inner)]
+        if chain:
+            on_edge[a, b] = [i for _, i in sorted(chain)]
+    edge_nodes = {i for chain in edge_chains.values() for _, i in chain}
     inside = {}
-    edge_nodes = {i for chain in divided_edges.values() for _, i in chain}
-    for t, corners in zip(parent, refined.faces):
+    for t, corners in zip(parent[pieces], refined.faces[pieces]):
         for i in corners:
             if i >= count and keep[i] and i not in edge_nodes:
                 inside.setdefault(int(t), set()).add(int(i))
-    points = np.vstack(nodes)
-    crossing = _faces_near(old, size)
-    out, owner = [], []
+    points, out, owner = np.vstack(added), [], []
+    again = np.zeros(len(old.faces), dtype=bool)
     for t, corners in enumerate(old.faces):
         ring = []
-        for k in range(3):
-            a, b = int(corners[k]), int(corners[(k + 1) % 3])
+        for a, b in zip(corners.tolist(), np.roll(corners, -1).tolist()):
             chain = on_edge.get((min(a, b), max(a, b)), [])
             ring += [a] + (chain if a < b else chain[::-1])
         free = sorted(inside.get(t, ()))
@@ -191,40 +195,31 @@ def _follow_rims(old: Surface, refined: Surface, parent: np.ndarray, size: SizeF
             extra = _rim_nodes(old.vertices[corners], normals[t], points[ring], size)
             free += list(range(len(points), len(points) + len(extra)))
             points = np.vstack([points, extra])
-        if len(ring) == 3 and not free:
-            out.append(corners[None])
-            owner.append([t])
-            continue
-        pieces = _triangulate(points, ring, free, normals[t])
-        out.append(pieces)
-        owner.append([t] * len(pieces))
-    faces, owner = np.vstack(out), np.concatenate(owner)
+        if len(ring) > 3 or free:
+            again[t] = True
+            out.append(_triangulate(points, ring, free, normals[t]))
+            owner += [t] * len(out[-1])
+    faces = np.vstack([old.faces[~again], *out])
+    owner = np.concatenate([np.flatnonzero(~again), np.array(owner, dtype=np.int64)])
     used = np.unique(np.concatenate([np.arange(count), faces.ravel()]))
     new = np.full(len(points), -1)
     new[used] = np.arange(len(used))
     return Surface(points[used], new[faces]), owner
 
 
-def _nodes_on_edges(old, refined, parent):
+def _nodes_on_edges(old, refined, parent, pieces):
     """For each old edge that was cut: its nodes as (position from 0 to 1, node), from the smaller vertex on."""
-    count = len(old.vertices)
     owners = {}
-    for t, corners in zip(parent, refined.faces):
-        for i in corners:
-            if i >= count:
-                owners.setdefault(int(i), set()).add(int(t))
-    edges = {}
+    for t, corners in zip(parent[pieces], refined.faces[pieces]):
+        for i in corners[corners >= len(old.vertices)]:
+            owners.setdefault(int(i), set()).add(int(t))
+    chains = {}
     for i, faces in owners.items():
         if len(faces) == 2:
-            shared = set.intersection(*(set(old.faces[t].tolist()) for t in faces))
-            a, b = sorted(shared)
+            a, b = sorted(set.intersection(*(set(old.faces[t].tolist()) for t in faces)))
             d = old.vertices[b] - old.vertices[a]
-            t = float((refined.vertices[i] - old.vertices[a]) @ d / (d @ d))
-            edges.setdefault((a, b), []).append((t, i))
-    for t, corners in enumerate(old.faces):  # uncut edges of faces near a rim may still cross it
-        for k in range(3):
-            edges.setdefault(tuple(sorted((int(corners[k]), int(corners[(k + 1) % 3])))), [])
-    return edges
+            chains.setdefault((a, b), []).append((float((refined.vertices[i] - old.vertices[a]) @ d / (d @ d)), i))
+    return chains
 
 
 def _on_near_side(disc, x, height_limit=1.0):
@@ -274,10 +269,10 @@ def _rim_nodes(corners, normal, ring, size):
     tree = cKDTree(ring)
     found = np.zeros((0, 3))
     for disc in size.discs:
-        rim = size(disc.point[None] + disc.radius * _tangents(disc.normal)[0])[0]
+        rim = size(disc.point[None] + disc.radius * tangents(disc.normal)[0])[0]
         number = int(np.ceil(2 * np.pi * disc.radius / rim))
         angle = 2 * np.pi * np.arange(number) / number
-        e, f = _tangents(disc.normal)
+        e, f = tangents(disc.normal)
         x = disc.point + disc.radius * (np.cos(angle)[:, None] * e + np.sin(angle)[:, None] * f)
         x = x + (((corners[0] - x) @ normal) / (disc.normal @ normal))[:, None] * disc.normal
         b = (x - corners[2]) @ inverse.T
@@ -290,7 +285,7 @@ def _rim_nodes(corners, normal, ring, size):
     return found
 
 
-def _tangents(normal):
+def tangents(normal):
     e = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
     e /= np.linalg.norm(e)
     return e, np.cross(normal, e)
@@ -300,7 +295,7 @@ def _triangulate(points, ring, free, normal):
     """Delaunay triangles of one flat face from the nodes of its edges and inside it, counter-clockwise about `normal`.
 
     The nodes of the edges are bent outwards by a hair first: exactly on a line they would be no convex hull."""
-    e, f = _tangents(normal)
+    e, f = tangents(normal)
     index = np.array(list(ring) + list(free))
     flat = np.stack([points[index] @ e, points[index] @ f], axis=1)
     flat -= flat[: len(ring)].mean(axis=0)

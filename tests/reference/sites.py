@@ -1,0 +1,33 @@
+"""Where the liver is pressed: a fixed rule, decided before any result was seen.
+
+Candidates are the vertices at least 10 mm from the fixed base (the largest disc has 5 mm). They are taken in
+farthest-point order from the top: each new site is the candidate farthest from all before it, so that any first part of
+the list covers lobes, edges and tip evenly. Every ninth site (the 5th, 14th, 23rd ...) is held out of every calibration.
+"""
+
+import numpy as np
+
+from surface import Surface
+
+CLEARANCE_M = 0.010
+EVERY = 9
+FIRST_HELD_OUT = 4
+
+
+def choose(surface: Surface, count: int) -> np.ndarray:
+    """`count` vertices in farthest-point order, starting at the highest one."""
+    points = surface.vertices
+    base = points[surface.base()]
+    clearance = np.array([np.linalg.norm(base - p, axis=1).min() for p in points])
+    candidates = np.flatnonzero(clearance >= CLEARANCE_M)
+    chosen = [int(candidates[points[candidates, 2].argmax()])]
+    distance = np.linalg.norm(points[candidates] - points[chosen[0]], axis=1)
+    while len(chosen) < count:
+        chosen.append(int(candidates[distance.argmax()]))
+        distance = np.minimum(distance, np.linalg.norm(points[candidates] - points[chosen[-1]], axis=1))
+    return np.array(chosen)
+
+
+def held_out(count: int) -> np.ndarray:
+    """(count,) bool."""
+    return np.arange(count) % EVERY == FIRST_HELD_OUT
