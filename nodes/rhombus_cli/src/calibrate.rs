@@ -1,0 +1,19 @@
+//! `rhombus calibrate`: parallel chains for a half-space, measured tables, recordings or reference solutions.
+
+mod command;
+pub mod errors;
+mod fitted;
+mod force;
+pub mod half_space;
+mod least_squares;
+pub mod measured;
+pub mod recording;
+mod regional;
+mod shape;
+pub mod sites;
+pub mod table;
+mod write;
+
+pub use command::Calibrate;
+pub use fitted::{FitError, Fitted, MOST_CHAINS, Reached};
+pub use force::{ForcePoint, relative_error};

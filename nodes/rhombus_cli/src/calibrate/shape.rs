@@ -1,0 +1,219 @@
+//! The shape of the surface: decay lengths and shares of parallel chains from points of a profile.
+//!
+//! A chain of many units is `g(s) = (e^(-s/L) - e^(-X/L)) / (1 - e^(-X/L))` with decay length `L = h / -ln q` and extent
+//! `X = n h`. Profiles are compared with what the model itself computes ([`ContactShape`]).
+
+use rhombus_chain::{ContactLaw, ContactShape, Formulation, SurfaceParameters};
+
+use super::fitted::{self, ANGLE_RAD, BEST_DATA, FitError, KNOWN, LONG, MOST_CHAINS, Member, Spring};
+use super::least_squares::{between, minimize_from, real_of};
+
+/// How far a point of the surface moves, each metre of depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ShapePoint {
+    /// Arc length from the contact, m.
+    pub(super) arc_m: f64,
+    /// Into the body, along the contact normal.
+    pub(super) normal: f64,
+    /// Away from the contact; `None` where only the normal part is known.
+    pub(super) tangential: Option<f64>,
+    /// Weight of the squared error of the normal part ...
+    pub(super) weight: f64,
+    /// ... and of the tangential one.
+    pub(super) tangential_weight: f64,
+}
+
+/// What was found.
+pub(super) struct ShapeFit {
+    pub(super) members: Vec<Member>,
+    /// What the points do not tell.
+    pub(super) notes: Vec<String>,
+}
+
+/// Something to be found.
+struct Unknown {
+    default: f64,
+    /// What is said when the default has to do.
+    note: String,
+}
+
+const ORDINALS: [&str; MOST_CHAINS] = ["1st", "2nd", "3rd", "4th", "5th", "6th", "7th", "8th"];
+
+/// What may be chosen about the shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ShapeTask {
+    /// Parallel chains.
+    pub(super) chains: usize,
+    /// `r_c`, m.
+    pub(super) contact_radius_m: f64,
+    /// Depth at which the points are compared, m: the tangential motion is not quite linear in it.
+    pub(super) depth_m: f64,
+    /// Depth at which every unit would be flat, m.
+    pub(super) range_m: f64,
+    /// Whether the shape may end before it has decayed, as on a body that is held somewhere.
+    pub(super) ends: bool,
+}
+
+/// Angles of a fitted tangential motion, rad.
+const ANGLES: (f64, f64) = (0.02, 1.45);
+
+/// Extents of a shape that ends, in decay lengths: from almost a cone to one that has decayed.
+const EXTENTS: (f64, f64) = (0.05, LONG);
+
+impl ShapeTask {
+    /// `cutoff = 0`: every unit that turns moves its part of the surface, so that the shape does not depend on the depth.
+    pub(super) fn surface(&self) -> SurfaceParameters {
+        SurfaceParameters {
+            cutoff: 0.0,
+            contact_radius_m: self.contact_radius_m,
+            ..SurfaceParameters::default()
+        }
+    }
+
+    /// Fewest points that say anything about so many chains: one for each unknown and one to check.
+    pub(super) fn fewest_points(&self) -> usize {
+        2 * self.chains + 1
+    }
+
+    /// The members with the least sum of weighted squared errors; steepest first. Unknowns that the points do not tell to a
+    /// factor of e are put to their defaults, the least certain one first.
+    pub(super) fn fit(&self, points: &[ShapePoint]) -> Result<ShapeFit, FitError> {
+        if !(1..=MOST_CHAINS).contains(&self.chains) {
+            return Err(FitError::Input { name: "chains", value: self.chains as f64, accepted: "1 to 8" });
+        }
+        let outside = points.iter().filter(|point| point.arc_m > self.contact_radius_m).count();
+        if outside < self.fewest_points() {
+            return Err(FitError::TooFew {
+                what: "points of the surface outside the contact",
+                found: outside,
+                needed: self.fewest_points(),
+                chains: self.chains,
+            });
+        }
+        let unknowns = self.unknowns(points);
+        let defaults: Vec<f64> = unknowns.iter().map(|unknown| unknown.default).collect();
+        let weight = points.iter().map(|point| point.weight + point.tangential_weight).sum::<f64>();
+        let scatter = BEST_DATA * (weight / points.len() as f64).sqrt();
+        let mut free: Vec<usize> = (0..unknowns.len()).collect();
+        let mut notes = Vec::new();
+        loop {
+            let whole = |x: &[f64]| {
+                let mut all = defaults.clone();
+                free.iter().zip(x).for_each(|(place, value)| all[*place] = *value);
+                all
+            };
+            let residuals = |x: &[f64]| self.residuals(points, &self.members(&whole(x)));
+            let starts = self.starts(points).map(|start| free.iter().map(|place| start[*place]).collect::<Vec<_>>());
+            let best = minimize_from(&starts.collect::<Vec<_>>(), &residuals);
+            let best = best.ok_or(FitError::NoSolution("surface's shape"))?;
+            let errors = best.standard_errors(scatter);
+            let worst = (0..free.len()).max_by(|a, b| errors[*a].total_cmp(&errors[*b]));
+            match worst.filter(|worst| errors[*worst] > KNOWN) {
+                Some(worst) => notes.push(unknowns[free.remove(worst)].note.clone()),
+                None => {
+                    let mut members = self.members(&whole(&best.parameters));
+                    members.sort_by(|a, b| a.decay_m.total_cmp(&b.decay_m));
+                    return Ok(ShapeFit { members, notes });
+                }
+            }
+        }
+    }
+
+    fn residuals(&self, points: &[ShapePoint], members: &[Member]) -> Option<Vec<f64>> {
+        let spring = Spring {
+            formulation: Formulation::Energy,
+            rest_n_per_m: 1.0,
+            tangential: 0.0,
+            range_m: self.range_m,
+        };
+        let law = ContactLaw::new(spring.formulation, &fitted::chains(&spring, members)).ok()?;
+        let mut shape = ContactShape::new(&law, &self.surface()).ok()?;
+        shape.set_depth(&law, self.depth_m).ok()?;
+        let mut residuals = Vec::with_capacity(2 * points.len());
+        for point in points {
+            let moved = shape.displacement(shape.s_m(point.arc_m), point.arc_m);
+            residuals.push((-moved.normal_m / self.depth_m - point.normal) * point.weight.sqrt());
+            if let Some(tangential) = point.tangential {
+                let error = moved.tangential_m / self.depth_m - tangential;
+                residuals.push(error * point.tangential_weight.sqrt());
+            }
+        }
+        Some(residuals)
+    }
+
+    /// ln decay (P), weights against the last (P - 1), and where they are wanted extents (P) and angles (P).
+    fn unknowns(&self, points: &[ShapePoint]) -> Vec<Unknown> {
+        let p = self.chains;
+        let far_m = self.far_m(points);
+        let mut unknowns = Vec::new();
+        let mut block = |count: usize, note: &str, default: &dyn Fn(usize) -> f64| {
+            unknowns.extend((0..count).map(|i| Unknown {
+                default: default(i),
+                note: format!("{note} of the {} of {p} shapes: not told by the data; the default", ORDINALS[i]),
+            }));
+        };
+        block(p, "chains.ratio (decay length)", &|i| decays(far_m, 0.02, 0.5, p)[i]);
+        block(p - 1, "chains.weight", &|_| 0.0);
+        if self.ends {
+            block(p, "chains.pitch (where the shape ends)", &|_| real_of(EXTENTS.0, EXTENTS.1, 0.99 * LONG));
+        }
+        if self.moves_sideways(points) {
+            block(p, "chains.angle", &|_| real_of(ANGLES.0, ANGLES.1, ANGLE_RAD));
+        }
+        unknowns
+    }
+
+    fn moves_sideways(&self, points: &[ShapePoint]) -> bool {
+        points.iter().any(|point| point.tangential.is_some())
+    }
+
+    fn far_m(&self, points: &[ShapePoint]) -> f64 {
+        points.iter().map(|point| point.arc_m - self.contact_radius_m).fold(0.0, f64::max)
+    }
+
+    /// The members of [`unknowns`](Self::unknowns) with values.
+    fn members(&self, x: &[f64]) -> Vec<Member> {
+        let p = self.chains;
+        let largest = (0..p - 1).map(|i| x[p + i]).fold(0.0, f64::max);
+        let extents = self.ends.then_some(2 * p - 1);
+        let angles = 2 * p - 1 + if self.ends { p } else { 0 };
+        let angles = (x.len() > angles).then_some(angles);
+        (0..p)
+            .map(|i| {
+                let decay_m = libm::exp(x[i].clamp(-40.0, 20.0));
+                let exponent = if i + 1 < p { x[p + i] } else { 0.0 };
+                Member {
+                    // A chain of no weight at all would be refused.
+                    weight: libm::exp((exponent - largest).max(-30.0)),
+                    decay_m,
+                    extent_m: decay_m * extents.map_or(LONG, |at| between(EXTENTS.0, EXTENTS.1, x[at + i])),
+                    angle_rad: angles.map_or(ANGLE_RAD, |at| between(ANGLES.0, ANGLES.1, x[at + i])),
+                }
+            })
+            .collect()
+    }
+
+    /// Decay lengths spread evenly on a logarithmic scale over several ranges.
+    fn starts(&self, points: &[ShapePoint]) -> impl Iterator<Item = Vec<f64>> {
+        const RANGES: [(f64, f64); 4] = [(0.02, 0.5), (0.05, 0.2), (0.01, 1.5), (0.003, 0.3)];
+        let (p, ends, sideways) = (self.chains, self.ends, self.moves_sideways(points));
+        let far_m = self.far_m(points);
+        RANGES.into_iter().map(move |(low, high)| {
+            let mut start = decays(far_m, low, high, p);
+            start.extend(std::iter::repeat_n(0.0, p - 1));
+            if ends {
+                start.extend(std::iter::repeat_n(real_of(EXTENTS.0, EXTENTS.1, 4.0), p));
+            }
+            if sideways {
+                start.extend(std::iter::repeat_n(real_of(ANGLES.0, ANGLES.1, 0.3), p));
+            }
+            start
+        })
+    }
+}
+
+/// Logarithms of decay lengths between two shares of the farthest point.
+fn decays(far_m: f64, low: f64, high: f64, chains: usize) -> Vec<f64> {
+    let along = |i: usize| (i as f64 + 0.5) / chains as f64;
+    (0..chains).map(|i| libm::log(far_m * low) + along(i) * libm::log(high / low)).collect()
+}

@@ -1,0 +1,261 @@
+//! Chains and a regional stiffness map from reference solutions at many sites. Held-out sites are never looked at.
+//!
+//! **Surface.** One set of chains for the whole body. With `n` the contact normal and `r` the direction away from the
+//! contact in its tangent plane the model moves a vertex by `G(arc) n + T(arc) r`; the two are perpendicular, so the squared
+//! error of the vector is that of its parts along `n` and `r` plus a constant, and the parts of all sites are averaged
+//! over narrow rings of arc length before the fit. A vertex at a site counts with
+//!
+//! ```text
+//! 1 / sum_near |u|^2  (within 30 mm of the contact)  +  0.1 / sum_all |u|^2
+//! ```
+//!
+//! so that the sum over the vertices is the squared relative error near the contact plus a tenth of the full one.
+//!
+//! **Force.** The references are linear: so are the chains (no tangential springs). Their stiffness is the geometric mean of
+//! the sites'; the map's factors are the sites' stiffnesses over it, interpolated over the surface.
+
+use glam::DVec3;
+use rhombus_chain::{
+    ArcLengths, Body, ChainParameters, Formulation, StiffnessMap, SurfaceMesh, SurfaceParameters,
+};
+
+use super::errors::{self, NEAR_M, SiteError, Which, at_vertex, median, one_contact};
+use super::fitted::{self, FitError, Fitted, Reached, Spring};
+use super::regional::{FEWEST_SITES, Interpolation, Place};
+use super::shape::{ShapePoint, ShapeTask};
+use crate::reference::{Reference, ReferenceContact};
+
+/// A calibrated body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FittedBody {
+    /// One or more chains.
+    pub chains: Vec<ChainParameters>,
+    /// Force law of all chains.
+    pub formulation: Formulation,
+    /// The surface around a contact.
+    pub surface: SurfaceParameters,
+    /// Factor on the force for each vertex.
+    pub map: Option<Vec<f64>>,
+    /// Errors at the sites that were used.
+    pub used: Vec<SiteError>,
+    /// Errors at the sites that were held out.
+    pub held_out: Vec<SiteError>,
+    /// The same as a calibration of any other kind.
+    pub fitted: Fitted,
+}
+
+/// Share of the full field's error beside the near field's.
+const FULL: f64 = 0.1;
+
+/// Rings for each contact radius.
+const RINGS: f64 = 16.0;
+
+/// Fewest sites that say something about the places between them.
+pub const FEWEST_FOR_MAP: usize = FEWEST_SITES;
+
+/// What a factor of a map may be.
+const FACTORS: (f64, f64) = (1e-3, 1e3);
+
+/// Fits `chains` parallel chains to the sites that are not held out, and with `with_map` the regional stiffness.
+///
+/// # Errors
+/// No site, sites of several contact radii or with several contacts at once, too few sites for a map.
+pub fn fit(reference: &Reference, chains: usize, with_map: bool) -> Result<FittedBody, FitError> {
+    let mesh = SurfaceMesh::new(reference.vertices.clone(), reference.faces.clone())
+        .map_err(|error| FitError::Data(format!("{}: {error}", reference.file)))?;
+    let sites = reference.used();
+    let contacts = sites.iter().map(|site| one_contact(reference, *site)).collect::<Result<Vec<_>, _>>()?;
+    let radius_m = contact_radius(reference, &sites)?;
+    let [low, high] = mesh.extents();
+    let task = ShapeTask {
+        chains,
+        contact_radius_m: radius_m,
+        depth_m: radius_m,
+        range_m: 0.5 * (high - low).min_element(),
+        ends: true,
+    };
+    let shape = task.fit(&rings(reference, &mesh, &sites, &contacts, radius_m))?;
+    let logarithms: Vec<f64> = contacts.iter().map(|c| libm::log(c.stiffness_n_per_m)).collect();
+    let mean = logarithms.iter().sum::<f64>() / logarithms.len() as f64;
+    let spring = Spring {
+        formulation: Formulation::Energy,
+        rest_n_per_m: libm::exp(mean),
+        tangential: 0.0,
+        range_m: task.range_m,
+    };
+    let mut fitted = Fitted {
+        formulation: spring.formulation,
+        chains: fitted::chains(&spring, &shape.members),
+        surface: task.surface(),
+        probe_radius_m: radius_m,
+        reached: Vec::new(),
+        notes: vec![
+            "chains.tangential_stiffness: 0, because the references are linear".to_owned(),
+            "chains.tangential_growth: without tangential springs it has no effect; the default".to_owned(),
+        ],
+    };
+    fitted.notes.extend(shape.notes);
+    let map = match with_map {
+        true => {
+            let logarithms: Vec<f64> = logarithms.iter().map(|logarithm| logarithm - mean).collect();
+            let (map, leave_one_out) = regional(&mesh, &contacts, &logarithms)?;
+            fitted.reached.push(Reached {
+                what: format!("force at each of {} sites, predicted from the others (rms)", sites.len()),
+                relative: leave_one_out,
+            });
+            Some(map)
+        }
+        false => None,
+    };
+    let mut body = Body::new(mesh);
+    if let Some(map) = &map {
+        let data = |error: rhombus_chain::StiffnessMapError| FitError::Data(error.to_string());
+        let map = StiffnessMap::new(map.clone(), body.mesh()).map_err(data)?;
+        body = body.with_stiffness(map).map_err(data)?;
+    }
+    let tissue = fitted.tissue()?;
+    let used = errors::at_sites(&body, &tissue, reference, Which::Used)?;
+    let held_out = errors::at_sites(&body, &tissue, reference, Which::HeldOut)?;
+    for (name, errors) in [("used", &used), ("held out", &held_out)] {
+        fitted.reached.extend(summary(name, errors));
+    }
+    Ok(FittedBody {
+        chains: fitted.chains.clone(),
+        formulation: fitted.formulation,
+        surface: fitted.surface,
+        map,
+        used,
+        held_out,
+        fitted,
+    })
+}
+
+/// Medians and worst of the errors, in words.
+fn summary(name: &str, errors: &[SiteError]) -> Vec<Reached> {
+    if errors.is_empty() {
+        return Vec::new();
+    }
+    let all = |part: fn(&SiteError) -> f64| errors.iter().map(part).collect::<Vec<_>>();
+    let force = all(|error| error.force_rel);
+    let worst = force.iter().copied().fold(0.0, f64::max);
+    let sites = format!("{} sites {name}", errors.len());
+    let near_mm = 1e3 * NEAR_M;
+    [
+        ("force, median".to_owned(), median(force)),
+        ("force, worst".to_owned(), worst),
+        (format!("surface within {near_mm} mm, median"), median(all(|error| error.near_rel_l2))),
+        ("whole surface, median".to_owned(), median(all(|error| error.full_rel_l2))),
+    ]
+    .into_iter()
+    .map(|(what, relative)| Reached { what: format!("{sites}: {what}"), relative })
+    .collect()
+}
+
+fn contact_radius(reference: &Reference, sites: &[usize]) -> Result<f64, FitError> {
+    let Some(first) = sites.first() else {
+        let problem = "no site that is not held out; accepted: one or more";
+        return Err(FitError::Data(format!("{}: held_out: {problem}", reference.file)));
+    };
+    let of = |site: &usize| {
+        let site = &reference.sites[*site];
+        [site.contact_radius_m, site.young_pa, site.poisson]
+    };
+    match sites.iter().find(|site| of(site) != of(first)) {
+        None => Ok(of(first)[0]),
+        Some(other) => Err(FitError::Data(format!(
+            "{}: site {first} has contact radius, young and poisson {:?}, site {other} {:?}; accepted: one contact and \
+             one material for all sites that are not held out",
+            reference.file,
+            of(first),
+            of(other)
+        ))),
+    }
+}
+
+/// Sums over the vertices in a ring of arc length.
+#[derive(Clone, Copy, Default)]
+struct Ring {
+    weight: f64,
+    arc: f64,
+    normal: f64,
+    tangential_weight: f64,
+    tangential: f64,
+}
+
+fn rings(
+    reference: &Reference,
+    mesh: &SurfaceMesh,
+    sites: &[usize],
+    contacts: &[ReferenceContact],
+    radius_m: f64,
+) -> Vec<ShapePoint> {
+    let mut arcs = ArcLengths::new(mesh);
+    let mut rings: Vec<Ring> = Vec::new();
+    for (site, contact) in sites.iter().zip(contacts) {
+        let exact = &reference.sites[*site].displacement;
+        let offset = |vertex: usize| mesh.vertices()[vertex] - contact.point;
+        let is_near = |vertex: usize| offset(vertex).length() <= NEAR_M;
+        let all: f64 = exact.iter().map(|u| u.length_squared()).sum();
+        let near: f64 =
+            exact.iter().enumerate().filter(|(v, _)| is_near(*v)).map(|(_, u)| u.length_squared()).sum();
+        let Some(at) = at_vertex(mesh, contact.vertex) else { continue };
+        let normal = mesh.normal(at);
+        arcs.solve(mesh, at, f64::MAX);
+        for (vertex, arc_m) in arcs.iter() {
+            let vertex = vertex as usize;
+            let weight = FULL / all + if is_near(vertex) { 1.0 / near } else { 0.0 };
+            let away = away(offset(vertex), normal);
+            let ring = (arc_m / radius_m * RINGS) as usize;
+            if rings.len() <= ring {
+                rings.resize(ring + 1, Ring::default());
+            }
+            let sums = &mut rings[ring];
+            sums.weight += weight;
+            sums.arc += weight * arc_m;
+            sums.normal -= weight * exact[vertex].dot(normal);
+            // (T |r| - u.r/|r|)^2 = |r|^2 (T - u.r/|r|^2)^2
+            sums.tangential_weight += weight * away.length_squared();
+            sums.tangential += weight * exact[vertex].dot(away);
+        }
+    }
+    let sites = sites.len() as f64;
+    rings
+        .iter()
+        .filter(|ring| ring.weight > 0.0)
+        .map(|ring| ShapePoint {
+            arc_m: ring.arc / ring.weight,
+            normal: ring.normal / ring.weight,
+            tangential: (ring.tangential_weight > 0.0).then(|| ring.tangential / ring.tangential_weight),
+            weight: ring.weight / sites,
+            tangential_weight: ring.tangential_weight / sites,
+        })
+        .collect()
+}
+
+/// The direction the model calls away: of unit length, shorter behind a thin lobe (MODEL section 4).
+fn away(offset: DVec3, normal: DVec3) -> DVec3 {
+    let in_plane = offset - normal * offset.dot(normal);
+    let scale = in_plane.length().max(0.2 * offset.length());
+    if scale > 0.0 { in_plane / scale } else { DVec3::ZERO }
+}
+
+/// Factors for all vertices, and how well each site is predicted from the others.
+fn regional(
+    mesh: &SurfaceMesh,
+    contacts: &[ReferenceContact],
+    logarithms: &[f64],
+) -> Result<(Vec<f64>, f64), FitError> {
+    if contacts.len() < FEWEST_SITES {
+        let found = contacts.len();
+        return Err(FitError::Data(format!(
+            "{found} sites are too few for a map; accepted: {FEWEST_SITES} or more"
+        )));
+    }
+    let place =
+        |vertex: usize| Place { position: mesh.vertices()[vertex], normal: mesh.vertex_normals()[vertex] };
+    let places: Vec<Place> = contacts.iter().map(|contact| place(contact.vertex as usize)).collect();
+    let interpolation =
+        Interpolation::new(&places, logarithms).ok_or(FitError::NoSolution("regional stiffness"))?;
+    let factor = |vertex: usize| libm::exp(interpolation.at(&place(vertex))).clamp(FACTORS.0, FACTORS.1);
+    Ok(((0..mesh.vertices().len()).map(factor).collect(), interpolation.leave_one_out))
+}
