@@ -7,6 +7,7 @@ mod explain;
 mod mesh;
 mod output;
 mod parameters;
+mod stability;
 
 use std::process::ExitCode;
 
@@ -27,6 +28,7 @@ enum Command {
     #[command(subcommand)]
     Mesh(mesh::Mesh),
     Parameters(parameters::Parameters),
+    Stability(stability::Stability),
 }
 
 fn main() -> ExitCode {
@@ -35,6 +37,7 @@ fn main() -> ExitCode {
         Command::Explain(command) => command.run(),
         Command::Mesh(command) => command.run(),
         Command::Parameters(command) => command.run(),
+        Command::Stability(command) => command.run(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
