@@ -6,26 +6,28 @@ use rhombus_chain::SurfaceMesh;
 /// The vertices a rigid flat disc of `radius_m` touches that lies at `vertex` with the unit outward `normal`: ascending,
 /// and always with `vertex` itself.
 ///
-/// A vertex is touched when it lies within the radius of the site in the tangent plane, faces the disc (its own normal
-/// is within 90 degrees of the disc's) and lies within the radius of that plane (the near side). An unknown vertex
-/// touches nothing.
+/// A vertex is touched when it lies within the radius of the site in the tangent plane, belongs to a face that looks
+/// towards the disc, and lies no deeper than the radius below the tangent plane: the near side. An unknown vertex touches
+/// nothing.
 #[must_use]
 pub fn patch(surface: &SurfaceMesh, vertex: u32, normal: DVec3, radius_m: f64) -> Vec<u32> {
     let Some(&site) = surface.vertices().get(vertex as usize) else {
         return Vec::new();
     };
-    let touches = |at: DVec3, own_normal: DVec3| {
-        let offset = at - site;
+    let within = |corner: u32| {
+        let offset = surface.vertices()[corner as usize] - site;
         let height = offset.dot(normal);
-        (offset - normal * height).length() <= radius_m * (1.0 + 1e-9)
-            && height.abs() <= radius_m
-            && own_normal.dot(normal) > 0.0
+        (offset - normal * height).length() <= radius_m * (1.0 + 1e-9) && height >= -radius_m
     };
-    (0u32..)
-        .zip(surface.vertices().iter().zip(surface.vertex_normals()))
-        .filter(|&(number, (&at, &own))| number == vertex || touches(at, own))
-        .map(|(number, _)| number)
-        .collect()
+    let mut touched = vec![vertex];
+    for (face, corners) in (0u32..).zip(surface.triangles()) {
+        if surface.face_normal(face).dot(normal) > 0.0 {
+            touched.extend(corners.iter().copied().filter(|&corner| within(corner)));
+        }
+    }
+    touched.sort_unstable();
+    touched.dedup();
+    touched
 }
 
 #[cfg(test)]

@@ -1,0 +1,30 @@
+//! Finite elements, condensed to the surface.
+//!
+//! Linear elasticity on the tetrahedra of the body, solved before the session: the compliance of the surface vertices,
+//! C = S K⁻¹ Sᵀ (K: stiffness of all nodes that can move, S: takes the surface vertices), is dense and small enough to
+//! multiply with in real time. Inner nodes, and of second order the middle nodes, are gone.
+
+mod assembly;
+mod condensed;
+mod element;
+mod fixed_contact;
+
+use crate::PeerKind;
+use element::Order;
+
+const CITATION: &str = "M. Bro-Nielsen, S. Cotin, Computer Graphics Forum 15(3), 57-66, 1996; S. Cotin, H. Delingette, N. Ayache, IEEE TVCG 5(1), 62-73, 1999";
+
+macro_rules! kind {
+    ($kind:ident, $name:literal, $setup:path, $order:expr) => {
+        #[doc = $name]
+        pub(crate) const $kind: PeerKind =
+            PeerKind { name: $name, citation: CITATION, setup: |job| $setup($name, job, $order) };
+    };
+}
+
+kind!(FIRST_FULL, "condensed FEM, 1st order, full product", condensed::full, Order::First);
+kind!(FIRST_PATCH, "condensed FEM, 1st order, patch columns", condensed::patch, Order::First);
+kind!(FIRST_FIXED, "FEM, 1st order, fixed contact", fixed_contact::fixed, Order::First);
+kind!(SECOND_FULL, "condensed FEM, 2nd order, full product", condensed::full, Order::Second);
+kind!(SECOND_PATCH, "condensed FEM, 2nd order, patch columns", condensed::patch, Order::Second);
+kind!(SECOND_FIXED, "FEM, 2nd order, fixed contact", fixed_contact::fixed, Order::Second);
