@@ -12,10 +12,10 @@ use super::errors::median;
 use super::fitted::{Fitted, MOST_CHAINS};
 use super::half_space::{self, Contact, HalfSpace};
 use super::measured::Measured;
+use super::recording;
 use super::sites;
 use super::table::Table;
 use super::write::{BodyLines, Output, check_free, percent};
-use super::recording;
 use crate::output;
 use crate::reference::Reference;
 
@@ -64,7 +64,13 @@ pub struct Calibrate {
     #[arg(long, value_name = "NAME", requires = "recording")]
     device: Option<String>,
     /// Mesh of the references: an OBJ file in metres or a generated body
-    #[arg(long, value_name = "FILE", requires = "reference", conflicts_with = "scene", default_value = "liver")]
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "reference",
+        conflicts_with = "scene",
+        default_value = "liver"
+    )]
     mesh: String,
     /// Regional stiffness map: on with 8 sites or more by default
     #[arg(long, value_name = "on|off", requires = "reference", value_parser = on_or_off)]
@@ -171,8 +177,13 @@ impl Calibrate {
         let Table { force, profile } = Table::read(path)?;
         let probe_radius_m = self.probe_radius.unwrap_or(PROBE_RADIUS_M);
         let contact_radius_m = self.contact_radius.unwrap_or(probe_radius_m);
-        let measured =
-            Measured { force, profile, profile_depth_m: self.profile_depth, probe_radius_m, contact_radius_m };
+        let measured = Measured {
+            force,
+            profile,
+            profile_depth_m: self.profile_depth,
+            probe_radius_m,
+            contact_radius_m,
+        };
         let fitted = measured.fit(self.formulation.unwrap_or_default(), self.chains);
         let fitted = fitted.with_context(|| path.display().to_string())?;
         let source = format!("the measurements of {}", file_name(path));
@@ -184,8 +195,9 @@ impl Calibrate {
         let body = scene.load_body()?.body;
         let tissue = scene.tissue()?;
         let recorded = recording::read(path, &scene, &body, &tissue, self.device.as_deref())?;
-        let contact_radius_m =
-            Some(scene.probe.contact_radius_m).filter(|radius_m| *radius_m > 0.0).unwrap_or(scene.probe.radius_m);
+        let contact_radius_m = Some(scene.probe.contact_radius_m)
+            .filter(|radius_m| *radius_m > 0.0)
+            .unwrap_or(scene.probe.radius_m);
         let source = format!(
             "{} measured forces of {}, recorded on the body of {}; {} forces without contact were not used",
             recorded.force.len(),
@@ -212,7 +224,8 @@ impl Calibrate {
         reference.check_mesh(body.mesh())?;
         let with_map = self.map.unwrap_or(reference.used().len() >= sites::FEWEST_FOR_MAP);
         check_free(&self.output, with_map, self.force)?;
-        let found = sites::fit(&reference, self.chains, with_map).with_context(|| path.display().to_string())?;
+        let found =
+            sites::fit(&reference, self.chains, with_map).with_context(|| path.display().to_string())?;
         let mut source = format!(
             "{} reference solutions of {}; {} more were held out to judge",
             found.used.len(),
@@ -221,7 +234,8 @@ impl Calibrate {
         );
         if with_map && !found.held_out.is_empty() {
             let constant = sites::fit(&reference, self.chains, false)?;
-            let force = |errors: &[super::errors::SiteError]| median(errors.iter().map(|e| e.force_rel).collect());
+            let force =
+                |errors: &[super::errors::SiteError]| median(errors.iter().map(|e| e.force_rel).collect());
             source += &format!(
                 "; one stiffness for the whole body leaves {} of their force (median), the map {}",
                 percent(force(&constant.held_out)),

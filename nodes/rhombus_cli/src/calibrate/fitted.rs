@@ -90,9 +90,6 @@ pub(super) const LONG: f64 = 16.0;
 /// Data are never taken to be better than this share of the depth or force.
 pub(super) const BEST_DATA: f64 = 1e-3;
 
-/// An unknown whose standard error is larger than this, in its logarithm or logit, is not known.
-pub(super) const KNOWN: f64 = 1.0;
-
 impl Fitted {
     /// The contact law.
     ///

@@ -12,8 +12,8 @@
 
 use rhombus_chain::{ContactLaw, Formulation};
 
-use super::fitted::{self, ANGLE_RAD, BEST_DATA, FitError, KNOWN, Member, Spring};
-use super::least_squares::{between, minimize_from, real_of};
+use super::fitted::{self, ANGLE_RAD, BEST_DATA, FitError, Member, Spring};
+use super::least_squares::{between, determine, real_of};
 
 /// A measured depth and force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +52,10 @@ enum Unknown {
 
 const UNKNOWNS: [Unknown; 4] = [Unknown::Rest, Unknown::Tangential, Unknown::Angle, Unknown::Range];
 
+/// From an almost straight line to a strongly curved one.
+const STARTS: [[f64; 4]; 4] =
+    [[0.0, -1.0, -1.0, -1.0], [0.3, 2.0, 0.0, -2.0], [-1.0, 3.0, 1.0, -3.0], [0.0, -4.0, 0.0, 0.0]];
+
 /// Fits the force of parallel chains. `members` say how they share it.
 ///
 /// # Errors
@@ -76,36 +80,19 @@ pub(super) fn fit(
     }
     let square: f64 = points.iter().map(|point| point.depth_m * point.depth_m).sum();
     let task = Task { formulation, members, points, secant_n_per_m: work / square, force_n, largest_m };
-    let mut free = UNKNOWNS.to_vec();
-    let mut notes = Vec::new();
-    loop {
-        let residuals = |x: &[f64]| task.residuals(&free, x);
-        let solution = minimize_from(&task.starts(&free), &residuals).ok_or(FitError::NoSolution("force"))?;
-        let errors = solution.standard_errors(BEST_DATA);
-        let worst = (0..free.len()).max_by(|a, b| errors[*a].total_cmp(&errors[*b]));
-        match worst.filter(|worst| errors[*worst] > KNOWN) {
-            Some(worst) => notes.push(task.note(free.remove(worst))),
-            None => {
-                let (spring, members) = task.law(&free, &solution.parameters);
-                notes.push(
-                    "chains.tangential_growth: only its product with k_t enters the force; the default"
-                        .to_owned(),
-                );
-                if points.iter().all(|point| point.depth_m >= 0.0) {
-                    notes.push(
-                        "no point is pulled: how the law answers a pull follows from the press alone"
-                            .to_owned(),
-                    );
-                } else if pressed_m <= 0.0 {
-                    notes.push(
-                        "no point is pressed: how the law answers a press follows from the pull alone"
-                            .to_owned(),
-                    );
-                }
-                return Ok(ForceFit { spring, members, notes });
-            }
-        }
+    let defaults = UNKNOWNS.map(|unknown| task.default_of(unknown));
+    let found = determine(&STARTS.map(Vec::from), &defaults, BEST_DATA, |x| task.residuals(x));
+    let found = found.ok_or(FitError::NoSolution("force"))?;
+    let mut notes: Vec<String> = found.left_open.iter().map(|place| task.note(UNKNOWNS[*place])).collect();
+    notes
+        .push("chains.tangential_growth: only its product with k_t enters the force; the default".to_owned());
+    if points.iter().all(|point| point.depth_m >= 0.0) {
+        notes.push("no point is pulled: how the law answers a pull follows from the press alone".to_owned());
+    } else if pressed_m <= 0.0 {
+        notes.push("no point is pressed: how the law answers a press follows from the pull alone".to_owned());
     }
+    let (spring, members) = task.law(&found.parameters);
+    Ok(ForceFit { spring, members, notes })
 }
 
 struct Task<'a> {
@@ -148,11 +135,9 @@ impl Task<'_> {
         }
     }
 
-    fn law(&self, free: &[Unknown], x: &[f64]) -> (Spring, Vec<Member>) {
-        let value = |unknown: Unknown| {
-            let place = free.iter().position(|known| *known == unknown);
-            place.map_or_else(|| self.default_of(unknown), |place| x[place])
-        };
+    /// `x`: values of [`UNKNOWNS`].
+    fn law(&self, x: &[f64]) -> (Spring, Vec<Member>) {
+        let value = |unknown: Unknown| x[unknown as usize];
         let (low, high) = (libm::log(RANGES.0), libm::log(RANGES.1));
         let spring = Spring {
             formulation: self.formulation,
@@ -164,8 +149,8 @@ impl Task<'_> {
         (spring, self.members.iter().map(|member| Member { angle_rad, ..*member }).collect())
     }
 
-    fn residuals(&self, free: &[Unknown], x: &[f64]) -> Option<Vec<f64>> {
-        let (spring, members) = self.law(free, x);
+    fn residuals(&self, x: &[f64]) -> Option<Vec<f64>> {
+        let (spring, members) = self.law(x);
         // All chains deform alike: the first stands for all, which saves their number.
         let law = ContactLaw::new(spring.formulation, &fitted::chains(&spring, &members[..1])).ok()?;
         let error = |point: &ForcePoint| {
@@ -173,13 +158,6 @@ impl Task<'_> {
             Some((force_n - point.force_n) / self.force_n)
         };
         self.points.iter().map(error).collect()
-    }
-
-    fn starts(&self, free: &[Unknown]) -> Vec<Vec<f64>> {
-        let starts =
-            [[0.0, -1.0, -1.0, -1.0], [0.3, 2.0, 0.0, -2.0], [-1.0, 3.0, 1.0, -3.0], [0.0, -4.0, 0.0, 0.0]];
-        let place = |unknown: &Unknown| UNKNOWNS.iter().position(|known| known == unknown).unwrap_or(0);
-        starts.iter().map(|start| free.iter().map(|unknown| start[place(unknown)]).collect()).collect()
     }
 }
 

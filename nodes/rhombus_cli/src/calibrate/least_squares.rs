@@ -8,12 +8,58 @@ use nalgebra::{DMatrix, DVector, Dyn, storage::Owned};
 
 /// Where the solver ended.
 #[derive(Clone, Debug)]
-pub(super) struct Solution {
-    pub(super) parameters: Vec<f64>,
+struct Solution {
+    parameters: Vec<f64>,
     /// Sum of squared residuals.
-    pub(super) cost: f64,
+    cost: f64,
     /// One row for each residual, one column for each parameter.
     jacobian: DMatrix<f64>,
+}
+
+/// Parameters as far as the data tell them.
+#[derive(Clone, Debug)]
+pub(super) struct Determined {
+    /// All parameters; those left open have their defaults.
+    pub(super) parameters: Vec<f64>,
+    /// Numbers of the parameters that the data do not tell, the least certain first.
+    pub(super) left_open: Vec<usize>,
+}
+
+/// A parameter with a larger standard error is not known. Parameters are logarithms and logits: known to a factor of e.
+const KNOWN: f64 = 1.0;
+
+/// The least sum of squares from several starts. A parameter that is not known at the solution is put to its default, the
+/// least certain first, and the rest is fitted again, until all that are left are known. `scatter` is the least that the
+/// residuals are taken to scatter by. `None` where the residuals are no numbers.
+pub(super) fn determine(
+    starts: &[Vec<f64>],
+    defaults: &[f64],
+    scatter: f64,
+    residuals: impl Fn(&[f64]) -> Option<Vec<f64>>,
+) -> Option<Determined> {
+    let mut free: Vec<usize> = (0..defaults.len()).collect();
+    let mut left_open = Vec::new();
+    let mut starts = starts.to_vec();
+    loop {
+        let whole = |x: &[f64]| {
+            let mut all = defaults.to_vec();
+            free.iter().zip(x).for_each(|(place, value)| all[*place] = *value);
+            all
+        };
+        let solutions = starts.iter().filter_map(|start| {
+            let start: Vec<f64> = free.iter().map(|place| start[*place]).collect();
+            minimize(&start, &|x| residuals(&whole(x)))
+        });
+        let best = solutions.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+        let parameters = whole(&best.parameters);
+        let errors = best.standard_errors(scatter);
+        let worst = (0..free.len()).max_by(|a, b| errors[*a].total_cmp(&errors[*b]));
+        match worst.filter(|worst| errors[*worst] > KNOWN) {
+            Some(worst) => left_open.push(free.remove(worst)),
+            None => return Some(Determined { parameters, left_open }),
+        }
+        starts = vec![parameters];
+    }
 }
 
 struct Problem<'a, F> {
@@ -60,12 +106,13 @@ impl<F: Fn(&[f64]) -> Option<Vec<f64>>> LeastSquaresProblem<f64, Dyn, Dyn> for P
 }
 
 /// Minimises the sum of squares from `start`. `None` where the residuals are no numbers.
-pub(super) fn minimize(start: &[f64], residuals: &impl Fn(&[f64]) -> Option<Vec<f64>>) -> Option<Solution> {
+fn minimize(start: &[f64], residuals: &impl Fn(&[f64]) -> Option<Vec<f64>>) -> Option<Solution> {
+    const TOLERANCE: f64 = 1e-10;
     let problem = Problem { parameters: DVector::from_column_slice(start), residuals };
     // Fixing everything is allowed; the solver refuses to solve for nothing.
     let problem = match start.is_empty() {
         true => problem,
-        false => LevenbergMarquardt::new().with_tol(1e-12).with_patience(60).minimize(problem).0,
+        false => LevenbergMarquardt::new().with_tol(TOLERANCE).with_patience(60).minimize(problem).0,
     };
     let cost = problem.residuals()?.norm_squared();
     let jacobian = match start.is_empty() {
@@ -75,19 +122,10 @@ pub(super) fn minimize(start: &[f64], residuals: &impl Fn(&[f64]) -> Option<Vec<
     cost.is_finite().then(|| Solution { parameters: problem.parameters.as_slice().to_vec(), cost, jacobian })
 }
 
-/// The best of several starts.
-pub(super) fn minimize_from(
-    starts: &[Vec<f64>],
-    residuals: &impl Fn(&[f64]) -> Option<Vec<f64>>,
-) -> Option<Solution> {
-    let solutions = starts.iter().filter_map(|start| minimize(start, residuals));
-    solutions.min_by(|a, b| a.cost.total_cmp(&b.cost))
-}
-
 impl Solution {
     /// Standard error of each parameter in its transformed unit, for residuals with a scatter of at least `floor`:
     /// `sqrt(diag (J^T J)^-1)` times the scatter. Infinite where the Jacobian has no rank.
-    pub(super) fn standard_errors(&self, floor: f64) -> Vec<f64> {
+    fn standard_errors(&self, floor: f64) -> Vec<f64> {
         let (rows, columns) = self.jacobian.shape();
         let scatter = (self.cost / rows.saturating_sub(columns).max(1) as f64).sqrt().max(floor);
         let svd = self.jacobian.clone().svd(false, true);

@@ -33,7 +33,9 @@ impl Measured {
     /// Too few points, a surface measured at no known depth, forces that do not oppose the depth.
     pub fn fit(&self, formulation: Formulation, chains: usize) -> Result<Fitted, FitError> {
         if self.force.is_empty() && self.profile.is_empty() {
-            return Err(FitError::Data("nothing was measured; accepted: depths and forces, a surface, or both".to_owned()));
+            return Err(FitError::Data(
+                "nothing was measured; accepted: depths and forces, a surface, or both".to_owned(),
+            ));
         }
         let mut notes = Vec::new();
         let deepest_m = self.force.iter().map(|point| point.depth_m.abs()).fold(0.0, f64::max);

@@ -105,7 +105,9 @@ fn prefix(recording: &Recording, device: Option<&str>) -> Result<String, String>
         .iter()
         .filter_map(|name| name.strip_suffix("measured_cp").filter(|prefix| prefix.ends_with('/')))
         .filter(|prefix| names.contains(&format!("{prefix}measured_cf").as_str()))
-        .filter(|prefix| device.is_none_or(|device| prefix.trim_end_matches('/').ends_with(&format!("/{device}"))))
+        .filter(|prefix| {
+            device.is_none_or(|device| prefix.trim_end_matches('/').ends_with(&format!("/{device}")))
+        })
         .collect();
     match prefixes[..] {
         [prefix] => Ok(prefix.to_owned()),
@@ -163,7 +165,8 @@ fn paired(touches: &[Touch], forces: &[WrenchStamped]) -> Result<Recorded, Strin
     for wrench in forces {
         let stamp_ns = nanoseconds(&wrench.header.stamp);
         let after = touches.partition_point(|touch| touch.stamp_ns < stamp_ns);
-        let near = [after.checked_sub(1), Some(after)].into_iter().flatten().filter_map(|place| touches.get(place));
+        let near =
+            [after.checked_sub(1), Some(after)].into_iter().flatten().filter_map(|place| touches.get(place));
         let Some(touch) = near.min_by_key(|touch| touch.stamp_ns.abs_diff(stamp_ns)) else { continue };
         if touch.stamp_ns.abs_diff(stamp_ns) > NEAR_NS.unsigned_abs() {
             continue;

@@ -5,8 +5,8 @@
 
 use rhombus_chain::{ContactLaw, ContactShape, Formulation, SurfaceParameters};
 
-use super::fitted::{self, ANGLE_RAD, BEST_DATA, FitError, KNOWN, LONG, MOST_CHAINS, Member, Spring};
-use super::least_squares::{between, minimize_from, real_of};
+use super::fitted::{self, ANGLE_RAD, BEST_DATA, FitError, LONG, MOST_CHAINS, Member, Spring};
+use super::least_squares::{between, determine, real_of};
 
 /// How far a point of the surface moves, each metre of depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,11 +33,13 @@ pub(super) struct ShapeFit {
 /// Something to be found.
 struct Unknown {
     default: f64,
-    /// What is said when the default has to do.
-    note: String,
+    what: &'static str,
 }
 
-const ORDINALS: [&str; MOST_CHAINS] = ["1st", "2nd", "3rd", "4th", "5th", "6th", "7th", "8th"];
+const DECAY: &str = "chains.ratio (decay length)";
+const WEIGHT: &str = "chains.weight";
+const EXTENT: &str = "chains.pitch (where a shape ends)";
+const ANGLE: &str = "chains.angle (motion away from the contact)";
 
 /// What may be chosen about the shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,29 +96,19 @@ impl ShapeTask {
         let defaults: Vec<f64> = unknowns.iter().map(|unknown| unknown.default).collect();
         let weight = points.iter().map(|point| point.weight + point.tangential_weight).sum::<f64>();
         let scatter = BEST_DATA * (weight / points.len() as f64).sqrt();
-        let mut free: Vec<usize> = (0..unknowns.len()).collect();
-        let mut notes = Vec::new();
-        loop {
-            let whole = |x: &[f64]| {
-                let mut all = defaults.clone();
-                free.iter().zip(x).for_each(|(place, value)| all[*place] = *value);
-                all
-            };
-            let residuals = |x: &[f64]| self.residuals(points, &self.members(&whole(x)));
-            let starts = self.starts(points).map(|start| free.iter().map(|place| start[*place]).collect::<Vec<_>>());
-            let best = minimize_from(&starts.collect::<Vec<_>>(), &residuals);
-            let best = best.ok_or(FitError::NoSolution("surface's shape"))?;
-            let errors = best.standard_errors(scatter);
-            let worst = (0..free.len()).max_by(|a, b| errors[*a].total_cmp(&errors[*b]));
-            match worst.filter(|worst| errors[*worst] > KNOWN) {
-                Some(worst) => notes.push(unknowns[free.remove(worst)].note.clone()),
-                None => {
-                    let mut members = self.members(&whole(&best.parameters));
-                    members.sort_by(|a, b| a.decay_m.total_cmp(&b.decay_m));
-                    return Ok(ShapeFit { members, notes });
-                }
+        let found =
+            determine(&self.starts(points), &defaults, scatter, |x| self.residuals(points, &self.members(x)));
+        let found = found.ok_or(FitError::NoSolution("surface's shape"))?;
+        let mut members = self.members(&found.parameters);
+        members.sort_by(|a, b| a.decay_m.total_cmp(&b.decay_m));
+        let mut notes: Vec<String> = Vec::new();
+        for what in [DECAY, WEIGHT, EXTENT, ANGLE] {
+            let count = found.left_open.iter().filter(|place| unknowns[**place].what == what).count();
+            if count > 0 {
+                notes.push(format!("{what}: the data do not tell {count} of {}; defaults", self.chains));
             }
         }
+        Ok(ShapeFit { members, notes })
     }
 
     fn residuals(&self, points: &[ShapePoint], members: &[Member]) -> Option<Vec<f64>> {
@@ -146,19 +138,16 @@ impl ShapeTask {
         let p = self.chains;
         let far_m = self.far_m(points);
         let mut unknowns = Vec::new();
-        let mut block = |count: usize, note: &str, default: &dyn Fn(usize) -> f64| {
-            unknowns.extend((0..count).map(|i| Unknown {
-                default: default(i),
-                note: format!("{note} of the {} of {p} shapes: not told by the data; the default", ORDINALS[i]),
-            }));
+        let mut block = |count: usize, what: &'static str, default: &dyn Fn(usize) -> f64| {
+            unknowns.extend((0..count).map(|i| Unknown { default: default(i), what }));
         };
-        block(p, "chains.ratio (decay length)", &|i| decays(far_m, 0.02, 0.5, p)[i]);
-        block(p - 1, "chains.weight", &|_| 0.0);
+        block(p, DECAY, &|i| decays(far_m, 0.02, 0.5, p)[i]);
+        block(p - 1, WEIGHT, &|_| 0.0);
         if self.ends {
-            block(p, "chains.pitch (where the shape ends)", &|_| real_of(EXTENTS.0, EXTENTS.1, 0.99 * LONG));
+            block(p, EXTENT, &|_| real_of(EXTENTS.0, EXTENTS.1, 0.99 * LONG));
         }
         if self.moves_sideways(points) {
-            block(p, "chains.angle", &|_| real_of(ANGLES.0, ANGLES.1, ANGLE_RAD));
+            block(p, ANGLE, &|_| real_of(ANGLES.0, ANGLES.1, ANGLE_RAD));
         }
         unknowns
     }
@@ -194,21 +183,21 @@ impl ShapeTask {
     }
 
     /// Decay lengths spread evenly on a logarithmic scale over several ranges.
-    fn starts(&self, points: &[ShapePoint]) -> impl Iterator<Item = Vec<f64>> {
+    fn starts(&self, points: &[ShapePoint]) -> Vec<Vec<f64>> {
         const RANGES: [(f64, f64); 4] = [(0.02, 0.5), (0.05, 0.2), (0.01, 1.5), (0.003, 0.3)];
-        let (p, ends, sideways) = (self.chains, self.ends, self.moves_sideways(points));
-        let far_m = self.far_m(points);
-        RANGES.into_iter().map(move |(low, high)| {
+        let (p, far_m) = (self.chains, self.far_m(points));
+        let start = |(low, high): (f64, f64)| {
             let mut start = decays(far_m, low, high, p);
             start.extend(std::iter::repeat_n(0.0, p - 1));
-            if ends {
+            if self.ends {
                 start.extend(std::iter::repeat_n(real_of(EXTENTS.0, EXTENTS.1, 4.0), p));
             }
-            if sideways {
+            if self.moves_sideways(points) {
                 start.extend(std::iter::repeat_n(real_of(ANGLES.0, ANGLES.1, 0.3), p));
             }
             start
-        })
+        };
+        RANGES.map(start).to_vec()
     }
 }
 

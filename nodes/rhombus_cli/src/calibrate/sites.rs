@@ -48,7 +48,7 @@ pub struct FittedBody {
 const FULL: f64 = 0.1;
 
 /// Rings for each contact radius.
-const RINGS: f64 = 16.0;
+const RINGS: f64 = 10.0;
 
 /// Fewest sites that say something about the places between them.
 pub const FEWEST_FOR_MAP: usize = FEWEST_SITES;

@@ -82,7 +82,8 @@ impl Table {
     /// # Errors
     /// As [`Table::read`].
     pub fn parse(file: &str, text: &str) -> Result<Self, TableError> {
-        let at = |line: usize, problem: String| TableError { file: file.to_owned(), line: Some(line), problem };
+        let at =
+            |line: usize, problem: String| TableError { file: file.to_owned(), line: Some(line), problem };
         let mut rows = text
             .lines()
             .enumerate()
@@ -123,7 +124,9 @@ impl Table {
                 table.profile.push(ProfilePoint { distance_m, displacement_m });
             }
         }
-        table.check_signs().map_err(|(row, problem)| at(force_lines.get(row).copied().unwrap_or(line), problem))?;
+        table
+            .check_signs()
+            .map_err(|(row, problem)| at(force_lines.get(row).copied().unwrap_or(line), problem))?;
         Ok(table)
     }
 
@@ -200,7 +203,10 @@ fn cells(columns: &[Column], row: &str) -> Result<Cells, String> {
         }
         let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
         let Some(number) = number else {
-            return Err(format!("{} = {cell:?} is not a number; accepted: a finite number", COLUMNS[column.kind]));
+            return Err(format!(
+                "{} = {cell:?} is not a number; accepted: a finite number",
+                COLUMNS[column.kind]
+            ));
         };
         values[column.kind] = Some(number * column.factor);
     }

@@ -65,7 +65,10 @@ impl Output<'_> {
         let mut files = Vec::new();
         if let Some(factors) = self.map {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let comment = format!("Regional stiffness of {name}: factor on the force for each vertex.\n{}", self.source);
+            let comment = format!(
+                "Regional stiffness of {name}: factor on the force for each vertex.\n{}",
+                self.source
+            );
             let map = StiffnessFile { comment: &comment, factors };
             files.push((map_path(path), map.to_string()));
         }
@@ -79,7 +82,8 @@ impl Output<'_> {
             .into_iter()
             .map(|(file, path)| {
                 let put = if force { file.persist(&path) } else { file.persist_noclobber(&path) };
-                put.map_err(|error| error.error).with_context(|| format!("{}: cannot be written", path.display()))?;
+                put.map_err(|error| error.error)
+                    .with_context(|| format!("{}: cannot be written", path.display()))?;
                 Ok(path)
             })
             .collect()
