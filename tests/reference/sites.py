@@ -14,17 +14,21 @@ EVERY = 9
 FIRST_HELD_OUT = 4
 
 
-def choose(surface: Surface, count: int) -> np.ndarray:
-    """`count` vertices in farthest-point order, starting at the highest one."""
+def candidates(surface: Surface) -> np.ndarray:
     points = surface.vertices
     base = points[surface.base()]
     clearance = np.array([np.linalg.norm(base - p, axis=1).min() for p in points])
-    candidates = np.flatnonzero(clearance >= CLEARANCE_M)
-    chosen = [int(candidates[points[candidates, 2].argmax()])]
-    distance = np.linalg.norm(points[candidates] - points[chosen[0]], axis=1)
+    return np.flatnonzero(clearance >= CLEARANCE_M)
+
+
+def choose(surface: Surface, count: int) -> np.ndarray:
+    """`count` vertices in farthest-point order, starting at the highest one."""
+    points, allowed = surface.vertices, candidates(surface)
+    chosen = [int(allowed[points[allowed, 2].argmax()])]
+    distance = np.linalg.norm(points[allowed] - points[chosen[0]], axis=1)
     while len(chosen) < count:
-        chosen.append(int(candidates[distance.argmax()]))
-        distance = np.minimum(distance, np.linalg.norm(points[candidates] - points[chosen[-1]], axis=1))
+        chosen.append(int(allowed[distance.argmax()]))
+        distance = np.minimum(distance, np.linalg.norm(points[allowed] - points[chosen[-1]], axis=1))
     return np.array(chosen)
 
 

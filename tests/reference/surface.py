@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import Delaunay, cKDTree
+from scipy.spatial import ConvexHull, Delaunay, cKDTree
 
 # A row of touched nodes presses a little wider than it is: next to the rim the first element outside follows. With
 # elements of size h at the rim a flat punch on a half-space acts as one wider by RIM_SET_BACK h (measured by
 # validate.py), so the rim of the mesh is set back by that much.
-RIM_SET_BACK = 0.19
+RIM_SET_BACK = 0.18
 
 
 @dataclass
@@ -59,6 +59,28 @@ def read_obj(path: Path) -> Surface:
     return Surface(np.array(vertices), np.array(faces, dtype=np.int64))
 
 
+def icosphere(centre: np.ndarray, radius: float, level: int) -> Surface:
+    """A sphere as a polyhedron of the same volume: an icosahedron with its faces divided into four `level` times."""
+    golden = (1 + 5**0.5) / 2
+    corners = [(s, t * golden, 0) for s in (-1, 1) for t in (-1, 1)]
+    points = np.array([np.roll(c, k) for k in range(3) for c in corners], dtype=float)
+    faces = ConvexHull(points).simplices.astype(np.int64)
+    for _ in range(level):
+        edges = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=2), axis=2)
+        unique, place = np.unique(edges.reshape(-1, 2), axis=0, return_inverse=True)
+        middle = len(points) + place.reshape(-1, 3)
+        points = np.vstack([points, points[unique].sum(axis=1)])
+        points /= np.linalg.norm(points, axis=1)[:, None]
+        (a, b, c), (d, e, f) = faces.T, middle.T
+        faces = np.concatenate([np.stack(x, axis=1) for x in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))])
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    p = points[faces]
+    signed = np.einsum("ij,ij->i", p[:, 0], np.cross(p[:, 1], p[:, 2]))
+    faces[signed < 0] = faces[signed < 0][:, ::-1]
+    points *= radius * (4 * np.pi / (np.abs(signed).sum() / 2)) ** (1 / 3)
+    return Surface(points + centre, faces)
+
+
 @dataclass
 class Disc:
     """Where a rigid flat disc touches: the near side of the surface within `radius` of `point`.
@@ -85,7 +107,7 @@ class SizeField:
     discs: list[Disc]
     cells: float
     inside: float | None = None
-    growth: float = 0.5
+    growth: float = 0.3
 
     def __call__(self, x: np.ndarray) -> np.ndarray:
         size = np.full(len(x), np.inf)

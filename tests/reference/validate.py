@@ -2,8 +2,8 @@
 
     python validate.py            writes results/validation.csv
 
-The half-space is a box 800 contact radii wide and 400 deep, held at its sides and bottom; what this changes (about
-2 a / (pi L) of the stiffness, 0.2 %) is part of the errors listed. Closed forms: K. L. Johnson, Contact Mechanics
+The half-space is a box 4000 contact radii wide and 2000 deep, held at its sides and bottom; what this changes (less than
+0.1 % of the stiffness) is part of the errors listed. Closed forms: K. L. Johnson, Contact Mechanics
 (1985), sections 3.2 (Boussinesq), 3.4 (uniform pressure on a circle, flat punch) and 4.2 (Hertz)."""
 
 import csv
@@ -34,14 +34,16 @@ def box(half_width: float, depth: float) -> Surface:
     vertices = np.array([[i * x, j * y, k * z] for k in (-1, 0) for j in (-1, 1) for i in (-1, 1)], dtype=float)
     faces = [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4]]
     faces += [[2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]  # TOP: the third and fourth
-    return Surface(vertices, np.array(faces))
+    faces = np.array(faces)
+    vertices[:, :2] -= vertices[faces[TOP[0]], :2].mean(axis=0)  # the origin inside a face, far from its edges
+    return Surface(vertices, faces)
 
 
 class HalfSpace:
     """One mesh of the half-space with a disc of nodes that may be touched; `cells`: elements per radius at its rim."""
 
-    def __init__(self, cells: float, radius: float, poisson: float = POISSON, inside=None, growth: float = 0.5):
-        surface = box(400 * RADIUS, 400 * RADIUS)
+    def __init__(self, cells: float, radius: float, poisson: float = POISSON, inside=None, growth: float = 0.3):
+        surface = box(2000 * RADIUS, 2000 * RADIUS)
         self.disc = Disc(np.zeros(3), np.array([0.0, 0.0, 1.0]), radius)
         size = SizeField([self.disc], cells, inside, growth)
         self.surface, parent = divide(surface, size)

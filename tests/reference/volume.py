@@ -8,19 +8,29 @@ import tetgen
 from surface import Surface
 
 
-def fill(surface: Surface, ratio: float = 1.4, dihedral: float = 10.0) -> tuple[np.ndarray, np.ndarray]:
+def fill(surface: Surface, inner: Surface | None = None, ratio: float = 1.2, dihedral: float = 10.0):
     """Nodes (N, 3), the first V being the surface's vertices, and tetrahedra (T, 4) of positive volume.
 
-    `ratio` is the largest circumradius over shortest edge, `dihedral` the smallest dihedral angle in degrees (both are
-    aims: where the given surface does not allow them, TetGen keeps the surface)."""
-    generator = tetgen.TetGen(surface.vertices, surface.faces.astype(np.int32))
-    nodes, tets = generator.tetrahedralize(
-        switches=f"pq{ratio}/{dihedral}YQ" if ratio else "pYQ", regionattrib=False
-    )[:2]
-    if not np.array_equal(nodes[: len(surface.vertices)], surface.vertices):
+    `inner`: a closed surface inside the body that the elements follow; its vertices come after the surface's. `ratio` is
+    the largest circumradius over shortest edge, `dihedral` the smallest dihedral angle in degrees (both are aims: where
+    the given surface does not allow them, TetGen keeps the surface)."""
+    vertices, faces = surface.vertices, surface.faces
+    if inner is not None:
+        faces = np.vstack([faces, inner.faces + len(vertices)])
+        vertices = np.vstack([vertices, inner.vertices])
+    # Points nearer than `T` times the body's size are one to TetGen; which value it gets along with differs.
+    for tolerance in ("1e-10", "1e-8", "1e-12", "1e-14"):
+        try:
+            generator = tetgen.TetGen(vertices, faces.astype(np.int32))
+            nodes, tets = generator.tetrahedralize(switches=f"pq{ratio}/{dihedral}YT{tolerance}Q")[:2]
+            break
+        except RuntimeError as error:
+            failure = error
+    else:
+        raise failure
+    if not np.array_equal(nodes[: len(vertices)], vertices):
         raise RuntimeError("TetGen moved or renumbered the vertices of the surface")
-    tets = positive(nodes, tets)
-    return nodes, tets
+    return nodes, positive(nodes, tets)
 
 
 def volumes(nodes: np.ndarray, tets: np.ndarray) -> np.ndarray:
