@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
-use devices::{ForceSource, MotorLoop, MotorSettings, ServoCommand, monotonic_ns, samples};
+use devices::{ForceSource, LawCommand, MotorLoop, MotorSettings, ServoCommand, monotonic_ns, samples};
 use node_kit::{Inbox, NodeKit, Throttle, convert, frames, topics};
 use r2r::geometry_msgs::msg::WrenchStamped;
 use r2r::rhombus_haptics_msgs::msg::ContactLaw;
@@ -15,6 +15,7 @@ use crate::backend::backend;
 use crate::law_message::LawReader;
 use crate::publisher::{DeviceTopics, Exchange, PublisherThread, lock};
 use crate::report::Health;
+use crate::stability_watch::StabilityWatch;
 
 /// Samples that the publisher may be behind before some are lost: 4 s at 1 kHz.
 const RING: usize = 4096;
@@ -68,6 +69,8 @@ pub(crate) fn run(kit: &mut NodeKit) -> Result<()> {
         reader: LawReader::new(frame_id.clone()),
         frame_id,
         max_force_n: scene.device.max_force_n,
+        stability: StabilityWatch::new(&scene),
+        unstable: Throttle::new(Duration::from_secs(1)),
         laws: 0,
         rejected: 0,
         rejections: Throttle::new(Duration::from_secs(1)),
@@ -98,6 +101,8 @@ struct Driver {
     reader: LawReader,
     frame_id: String,
     max_force_n: f64,
+    stability: StabilityWatch,
+    unstable: Throttle,
     laws: u64,
     rejected: u64,
     rejections: Throttle,
@@ -117,6 +122,7 @@ impl Driver {
             match self.reader.read(&message) {
                 Ok(command) => {
                     self.laws += 1;
+                    self.judge(kit, &command);
                     self.motor.send_law(command);
                 }
                 Err(refusal) => self.reject(kit, "contact_law", &refusal.to_string()),
@@ -124,6 +130,13 @@ impl Driver {
         }
         while let Some(message) = self.inboxes.servo_cf.take() {
             self.take_servo(kit, &message);
+        }
+    }
+
+    /// In the words of `rhombus stability`.
+    fn judge(&mut self, kit: &NodeKit, command: &LawCommand) {
+        if let Some(verdict) = self.stability.warning(command) {
+            self.unstable.warn(kit.log(), || format!("stability: {verdict}"));
         }
     }
 

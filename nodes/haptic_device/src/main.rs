@@ -12,6 +12,7 @@ mod law_message;
 mod press_sites;
 mod publisher;
 mod report;
+mod stability_watch;
 
 use std::process::ExitCode;
 
