@@ -13,7 +13,7 @@
 use rhombus_chain::{ContactLaw, Formulation};
 
 use super::fitted::{self, ANGLE_RAD, BEST_DATA, FitError, Member, Spring};
-use super::least_squares::{between, determine, real_of};
+use super::least_squares::{KNOWN, between, determine, real_of};
 
 /// A measured depth and force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +81,7 @@ pub(super) fn fit(
     let square: f64 = points.iter().map(|point| point.depth_m * point.depth_m).sum();
     let task = Task { formulation, members, points, secant_n_per_m: work / square, force_n, largest_m };
     let defaults = UNKNOWNS.map(|unknown| task.default_of(unknown));
-    let found = determine(&STARTS.map(Vec::from), &defaults, BEST_DATA, |x| task.residuals(x));
+    let found = determine(&STARTS.map(Vec::from), &defaults, BEST_DATA, KNOWN, |x| task.residuals(x));
     let found = found.ok_or(FitError::NoSolution("force"))?;
     let mut notes: Vec<String> = found.left_open.iter().map(|place| task.note(UNKNOWNS[*place])).collect();
     notes

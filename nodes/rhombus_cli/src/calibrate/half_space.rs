@@ -193,7 +193,14 @@ pub(super) fn members(radius_m: f64, chains: usize) -> Result<Vec<Member>, FitEr
 }
 
 fn task(radius_m: f64, chains: usize) -> ShapeTask {
-    ShapeTask { chains, contact_radius_m: radius_m, depth_m: radius_m, range_m: 2.0 * radius_m, ends: false }
+    ShapeTask {
+        chains,
+        contact_radius_m: radius_m,
+        depth_m: radius_m,
+        range_m: 2.0 * radius_m,
+        ends: false,
+        closed_form: true,
+    }
 }
 
 /// Relative L2 error of the fitted surface against the flat punch's at [`HalfSpace::profile_distances_m`].

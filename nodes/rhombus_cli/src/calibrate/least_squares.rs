@@ -26,39 +26,51 @@ pub(super) struct Determined {
 }
 
 /// A parameter with a larger standard error is not known. Parameters are logarithms and logits: known to a factor of e.
-const KNOWN: f64 = 1.0;
+pub(super) const KNOWN: f64 = 1.0;
+
+/// Putting a parameter to its default may raise the sum of squares by this many times the squared scatter: two standard
+/// errors.
+const NOT_WORSE: f64 = 4.0;
 
 /// The least sum of squares from several starts. A parameter that is not known at the solution is put to its default, the
-/// least certain first, and the rest is fitted again, until all that are left are known. `scatter` is the least that the
-/// residuals are taken to scatter by. `None` where the residuals are no numbers.
+/// least certain first, and the rest is fitted again, as long as that is hardly worse. `scatter` is the least that the
+/// residuals are taken to scatter by; `known` the largest standard error of a parameter that counts as known. `None` where the residuals are no numbers.
 pub(super) fn determine(
     starts: &[Vec<f64>],
     defaults: &[f64],
     scatter: f64,
+    known: f64,
     residuals: impl Fn(&[f64]) -> Option<Vec<f64>>,
 ) -> Option<Determined> {
+    let whole = |free: &[usize], x: &[f64]| {
+        let mut all = defaults.to_vec();
+        free.iter().zip(x).for_each(|(place, value)| all[*place] = *value);
+        all
+    };
+    let solve = |free: &[usize], start: &[f64]| {
+        let start: Vec<f64> = free.iter().map(|place| start[*place]).collect();
+        minimize(&start, &|x| residuals(&whole(free, x)))
+    };
     let mut free: Vec<usize> = (0..defaults.len()).collect();
-    let mut left_open = Vec::new();
-    let mut starts = starts.to_vec();
+    let solutions = starts.iter().filter_map(|start| solve(&free, start));
+    let mut best = solutions.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let (mut left_open, mut needed) = (Vec::new(), Vec::new());
     loop {
-        let whole = |x: &[f64]| {
-            let mut all = defaults.to_vec();
-            free.iter().zip(x).for_each(|(place, value)| all[*place] = *value);
-            all
-        };
-        let solutions = starts.iter().filter_map(|start| {
-            let start: Vec<f64> = free.iter().map(|place| start[*place]).collect();
-            minimize(&start, &|x| residuals(&whole(x)))
-        });
-        let best = solutions.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
-        let parameters = whole(&best.parameters);
         let errors = best.standard_errors(scatter);
-        let worst = (0..free.len()).max_by(|a, b| errors[*a].total_cmp(&errors[*b]));
-        match worst.filter(|worst| errors[*worst] > KNOWN) {
-            Some(worst) => left_open.push(free.remove(worst)),
-            None => return Some(Determined { parameters, left_open }),
+        let open = (0..free.len()).filter(|place| errors[*place] > known && !needed.contains(&free[*place]));
+        let Some(worst) = open.max_by(|a, b| errors[*a].total_cmp(&errors[*b])) else {
+            return Some(Determined { parameters: whole(&free, &best.parameters), left_open });
+        };
+        let mut fewer = free.clone();
+        let parameter = fewer.remove(worst);
+        let limit = best.cost + NOT_WORSE * best.variance(scatter);
+        match solve(&fewer, &whole(&free, &best.parameters)).filter(|solution| solution.cost <= limit) {
+            Some(solution) => {
+                left_open.push(parameter);
+                (best, free) = (solution, fewer);
+            }
+            None => needed.push(parameter),
         }
-        starts = vec![parameters];
     }
 }
 
@@ -107,27 +119,33 @@ impl<F: Fn(&[f64]) -> Option<Vec<f64>>> LeastSquaresProblem<f64, Dyn, Dyn> for P
 
 /// Minimises the sum of squares from `start`. `None` where the residuals are no numbers.
 fn minimize(start: &[f64], residuals: &impl Fn(&[f64]) -> Option<Vec<f64>>) -> Option<Solution> {
-    const TOLERANCE: f64 = 1e-10;
+    const TOLERANCE: f64 = 1e-12;
     let problem = Problem { parameters: DVector::from_column_slice(start), residuals };
     // Fixing everything is allowed; the solver refuses to solve for nothing.
     let problem = match start.is_empty() {
         true => problem,
-        false => LevenbergMarquardt::new().with_tol(TOLERANCE).with_patience(60).minimize(problem).0,
+        false => LevenbergMarquardt::new().with_tol(TOLERANCE).with_patience(100).minimize(problem).0,
     };
     let cost = problem.residuals()?.norm_squared();
     let jacobian = match start.is_empty() {
-        true => DMatrix::zeros(0, 0),
+        true => DMatrix::zeros(problem.residuals()?.len(), 0),
         false => problem.jacobian()?,
     };
     cost.is_finite().then(|| Solution { parameters: problem.parameters.as_slice().to_vec(), cost, jacobian })
 }
 
 impl Solution {
+    /// Squared scatter of the residuals, at least that of `floor`.
+    fn variance(&self, floor: f64) -> f64 {
+        let (rows, columns) = self.jacobian.shape();
+        (self.cost / rows.saturating_sub(columns).max(1) as f64).max(floor * floor)
+    }
+
     /// Standard error of each parameter in its transformed unit, for residuals with a scatter of at least `floor`:
     /// `sqrt(diag (J^T J)^-1)` times the scatter. Infinite where the Jacobian has no rank.
     fn standard_errors(&self, floor: f64) -> Vec<f64> {
-        let (rows, columns) = self.jacobian.shape();
-        let scatter = (self.cost / rows.saturating_sub(columns).max(1) as f64).sqrt().max(floor);
+        let columns = self.jacobian.ncols();
+        let scatter = self.variance(floor).sqrt();
         let svd = self.jacobian.clone().svd(false, true);
         let Some(v_t) = svd.v_t else { return vec![f64::INFINITY; columns] };
         let largest = svd.singular_values.max();

@@ -6,7 +6,7 @@
 use rhombus_chain::{ContactLaw, ContactShape, Formulation, SurfaceParameters};
 
 use super::fitted::{self, ANGLE_RAD, BEST_DATA, FitError, LONG, MOST_CHAINS, Member, Spring};
-use super::least_squares::{between, determine, real_of};
+use super::least_squares::{KNOWN, between, determine, real_of};
 
 /// How far a point of the surface moves, each metre of depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,10 +54,19 @@ pub(super) struct ShapeTask {
     pub(super) range_m: f64,
     /// Whether the shape may end before it has decayed, as on a body that is held somewhere.
     pub(super) ends: bool,
+    /// Whether the points are those of a formula and not measured.
+    pub(super) closed_form: bool,
 }
 
 /// Angles of a fitted tangential motion, rad.
 const ANGLES: (f64, f64) = (0.02, 1.45);
+
+/// Logarithms of the decay lengths that are looked for, as a share of the farthest point's `s`: 1/10000 to 10.
+const SHORT: f64 = -9.2;
+const WIDE: f64 = 2.3;
+
+/// Makes an unknown a logarithm in the middle of its range: the slope of [`between`] is a quarter of the range there.
+const STEEPNESS: f64 = (WIDE - SHORT) / 4.0;
 
 /// Extents of a shape that ends, in decay lengths: from almost a cone to one that has decayed.
 const EXTENTS: (f64, f64) = (0.05, LONG);
@@ -92,14 +101,17 @@ impl ShapeTask {
                 chains: self.chains,
             });
         }
+        let far_m = self.far_m(points);
         let unknowns = self.unknowns(points);
         let defaults: Vec<f64> = unknowns.iter().map(|unknown| unknown.default).collect();
         let weight = points.iter().map(|point| point.weight + point.tangential_weight).sum::<f64>();
         let scatter = BEST_DATA * (weight / points.len() as f64).sqrt();
-        let found =
-            determine(&self.starts(points), &defaults, scatter, |x| self.residuals(points, &self.members(x)));
+        // What is wrong with a closed form is the model's, not scatter: all of it counts.
+        let known = if self.closed_form { f64::INFINITY } else { KNOWN };
+        let residuals = |x: &[f64]| self.residuals(points, &self.members(x, far_m));
+        let found = determine(&self.starts(points), &defaults, scatter, known, residuals);
         let found = found.ok_or(FitError::NoSolution("surface's shape"))?;
-        let mut members = self.members(&found.parameters);
+        let mut members = self.members(&found.parameters, far_m);
         members.sort_by(|a, b| a.decay_m.total_cmp(&b.decay_m));
         let mut notes: Vec<String> = Vec::new();
         for what in [DECAY, WEIGHT, EXTENT, ANGLE] {
@@ -136,12 +148,11 @@ impl ShapeTask {
     /// ln decay (P), weights against the last (P - 1), and where they are wanted extents (P) and angles (P).
     fn unknowns(&self, points: &[ShapePoint]) -> Vec<Unknown> {
         let p = self.chains;
-        let far_m = self.far_m(points);
         let mut unknowns = Vec::new();
         let mut block = |count: usize, what: &'static str, default: &dyn Fn(usize) -> f64| {
             unknowns.extend((0..count).map(|i| Unknown { default: default(i), what }));
         };
-        block(p, DECAY, &|i| decays(far_m, 0.02, 0.5, p)[i]);
+        block(p, DECAY, &|i| decays(0.02, 0.5, p)[i]);
         block(p - 1, WEIGHT, &|_| 0.0);
         if self.ends {
             block(p, EXTENT, &|_| real_of(EXTENTS.0, EXTENTS.1, 0.99 * LONG));
@@ -161,7 +172,7 @@ impl ShapeTask {
     }
 
     /// The members of [`unknowns`](Self::unknowns) with values.
-    fn members(&self, x: &[f64]) -> Vec<Member> {
+    fn members(&self, x: &[f64], far_m: f64) -> Vec<Member> {
         let p = self.chains;
         let largest = (0..p - 1).map(|i| x[p + i]).fold(0.0, f64::max);
         let extents = self.ends.then_some(2 * p - 1);
@@ -169,11 +180,11 @@ impl ShapeTask {
         let angles = (x.len() > angles).then_some(angles);
         (0..p)
             .map(|i| {
-                let decay_m = libm::exp(x[i].clamp(-40.0, 20.0));
+                let decay_m = far_m * libm::exp(between(SHORT, WIDE, x[i] / STEEPNESS));
                 let exponent = if i + 1 < p { x[p + i] } else { 0.0 };
                 Member {
                     // A chain of no weight at all would be refused.
-                    weight: libm::exp((exponent - largest).max(-30.0)),
+                    weight: libm::exp((exponent - largest).max(-20.0)),
                     decay_m,
                     extent_m: decay_m * extents.map_or(LONG, |at| between(EXTENTS.0, EXTENTS.1, x[at + i])),
                     angle_rad: angles.map_or(ANGLE_RAD, |at| between(ANGLES.0, ANGLES.1, x[at + i])),
@@ -184,10 +195,10 @@ impl ShapeTask {
 
     /// Decay lengths spread evenly on a logarithmic scale over several ranges.
     fn starts(&self, points: &[ShapePoint]) -> Vec<Vec<f64>> {
-        const RANGES: [(f64, f64); 4] = [(0.02, 0.5), (0.05, 0.2), (0.01, 1.5), (0.003, 0.3)];
-        let (p, far_m) = (self.chains, self.far_m(points));
+        const RANGES: [(f64, f64); 5] = [(0.02, 0.5), (0.05, 0.2), (0.01, 1.5), (0.003, 0.3), (0.000_2, 1.0)];
+        let p = self.chains;
         let start = |(low, high): (f64, f64)| {
-            let mut start = decays(far_m, low, high, p);
+            let mut start = decays(low, high, p);
             start.extend(std::iter::repeat_n(0.0, p - 1));
             if self.ends {
                 start.extend(std::iter::repeat_n(real_of(EXTENTS.0, EXTENTS.1, 4.0), p));
@@ -201,8 +212,9 @@ impl ShapeTask {
     }
 }
 
-/// Logarithms of decay lengths between two shares of the farthest point.
-fn decays(far_m: f64, low: f64, high: f64, chains: usize) -> Vec<f64> {
+/// Decay lengths between two shares of the farthest point, evenly on a logarithmic scale.
+fn decays(low: f64, high: f64, chains: usize) -> Vec<f64> {
     let along = |i: usize| (i as f64 + 0.5) / chains as f64;
-    (0..chains).map(|i| libm::log(far_m * low) + along(i) * libm::log(high / low)).collect()
+    let logarithm = |i: usize| libm::log(low) + along(i) * libm::log(high / low);
+    (0..chains).map(|i| STEEPNESS * real_of(SHORT, WIDE, logarithm(i))).collect()
 }

@@ -73,6 +73,7 @@ pub fn fit(reference: &Reference, chains: usize, with_map: bool) -> Result<Fitte
         depth_m: radius_m,
         range_m: 0.5 * (high - low).min_element(),
         ends: true,
+        closed_form: false,
     };
     let shape = task.fit(&rings(reference, &mesh, &sites, &contacts, radius_m))?;
     let logarithms: Vec<f64> = contacts.iter().map(|c| libm::log(c.stiffness_n_per_m)).collect();
