@@ -8,6 +8,7 @@
 mod arc_length;
 mod body;
 mod chain;
+pub mod checks;
 mod closed_form;
 mod closest;
 mod contact_law;
