@@ -1,0 +1,186 @@
+//! Draws a figure as SVG.
+//!
+//! An SVG file stands on a white ground. In the page, style.css gives ink, ground and grid the colours of the reader's scheme:
+//! they are the only things drawn in these three colours.
+
+use anyhow::{Result, anyhow};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::figure::{Figure, Line, Marker, Point, Series};
+use super::ticks::Ticks;
+
+/// Text and axes.
+const INK: RGBColor = RGBColor(0x22, 0x26, 0x2b);
+/// Grid lines.
+const GRID: RGBColor = RGBColor(0xdf, 0xe3, 0xe8);
+/// Behind everything.
+const GROUND: RGBColor = RGBColor(0xff, 0xff, 0xff);
+/// Readable on white and on near black, and apart for colour-blind eyes (after Okabe and Ito).
+const PALETTE: [RGBColor; 10] = [
+    RGBColor(0x1f, 0x7a, 0xc4),
+    RGBColor(0xd5, 0x5e, 0x00),
+    RGBColor(0x0b, 0x9e, 0x73),
+    RGBColor(0xc8, 0x5f, 0xa0),
+    RGBColor(0xdd, 0x99, 0x00),
+    RGBColor(0x84, 0x6f, 0xd6),
+    RGBColor(0x4f, 0xb0, 0xd8),
+    RGBColor(0x8a, 0x8f, 0x96),
+    RGBColor(0xa8, 0x6a, 0x2e),
+    RGBColor(0x94, 0xb0, 0x2a),
+];
+
+/// plotters places everything on whole pixels: it is given this many for each pixel of the drawing.
+const FINE: u32 = 4;
+const WIDTH: u32 = 800;
+const PLOT_HEIGHT: u32 = 440;
+const LEGEND_LINE: u32 = 22;
+const LEGEND_COLUMNS: u32 = 2;
+const TEXT: u32 = 15;
+const LINE: u32 = 2 * FINE;
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ticks, Ticks>>;
+type DrawingError = DrawingAreaErrorKind<std::io::Error>;
+
+/// The figure as a whole SVG document.
+///
+/// # Errors
+/// An axis without extent.
+pub(crate) fn svg(figure: &Figure) -> Result<String> {
+    let shown: Vec<&Series> = figure.series.iter().filter(|series| !series.name.is_empty()).collect();
+    let height = PLOT_HEIGHT + (shown.len() as u32).div_ceil(LEGEND_COLUMNS) * LEGEND_LINE + 8;
+    let mut text = String::new();
+    let drawn = draw(&mut text, height, figure, &shown);
+    drawn.map_err(|error| anyhow!("the figure cannot be drawn: {error}"))?;
+    let size = |width, height| format!("width=\"{width}\" height=\"{height}\"");
+    Ok(text.replacen(&size(FINE * WIDTH, FINE * height), &size(WIDTH, height), 1))
+}
+
+fn draw(text: &mut String, height: u32, figure: &Figure, shown: &[&Series]) -> Result<(), DrawingError> {
+    let root = SVGBackend::with_string(text, (FINE * WIDTH, FINE * height)).into_drawing_area();
+    root.fill(&GROUND)?;
+    let (plot, legend) = root.split_vertically(FINE * PLOT_HEIGHT);
+    draw_plot(&plot, figure)?;
+    draw_legend(&legend, shown)?;
+    root.present()
+}
+
+fn draw_plot(area: &Area, figure: &Figure) -> Result<(), DrawingError> {
+    let drawable = || figure.series.iter().flat_map(|series| &series.points).filter(|p| figure.draws(p));
+    let with_ends = |value: f64, spread: Option<(f64, f64)>| {
+        let (low, high) = spread.unwrap_or((value, value));
+        [value, low, high]
+    };
+    let x = Ticks::new(&figure.x, drawable().flat_map(|p| with_ends(p.x, p.x_spread)));
+    let y = Ticks::new(&figure.y, drawable().flat_map(|p| with_ends(p.y, p.y_spread)));
+    let mut chart = ChartBuilder::on(area)
+        .margin(12 * FINE)
+        .margin_right(24 * FINE)
+        .x_label_area_size(48 * FINE)
+        .y_label_area_size(72 * FINE)
+        .build_cartesian_2d(x.clone(), y.clone())?;
+    let ink = ("sans-serif", TEXT * FINE).into_font().color(&INK);
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(GRID.stroke_width(FINE))
+        .axis_style(INK.stroke_width(FINE))
+        .label_style(ink.clone())
+        .axis_desc_style(ink)
+        .set_all_tick_mark_size(5 * FINE)
+        .x_labels(100)
+        .y_labels(100)
+        .x_desc(&figure.x.label)
+        .y_desc(&figure.y.label)
+        .draw()?;
+    for series in &figure.series {
+        draw_series(&mut chart, series, figure, (&x, &y))?;
+    }
+    Ok(())
+}
+
+fn draw_series(
+    chart: &mut Chart,
+    series: &Series,
+    figure: &Figure,
+    (x, y): (&Ticks, &Ticks),
+) -> Result<(), DrawingError> {
+    let colour = colour(series);
+    let inside = |point: &&Point| figure.draws(point) && x.shows(point.x) && y.shows(point.y);
+    for run in series.points.split(|point| !inside(&point)).filter(|run| !run.is_empty()) {
+        let places = run.iter().map(|point| (point.x, point.y));
+        match series.line {
+            Line::None => {}
+            Line::Solid => {
+                chart.draw_series(LineSeries::new(places, colour.stroke_width(LINE)))?;
+            }
+            Line::Dashed => {
+                chart.draw_series(DashedLineSeries::new(
+                    places,
+                    6 * FINE,
+                    4 * FINE,
+                    colour.stroke_width(LINE),
+                ))?;
+            }
+        }
+    }
+    for point in series.points.iter().filter(inside) {
+        let place = (point.x, point.y);
+        let across = point.x_spread.map(|(low, high)| [(low, place.1), (high, place.1)]);
+        let along = point.y_spread.map(|(low, high)| [(place.0, low), (place.0, high)]);
+        let bars = across.into_iter().chain(along);
+        let inside = bars.filter(|ends| ends.iter().all(|(px, py)| x.shows(*px) && y.shows(*py)));
+        chart.draw_series(inside.map(|ends| PathElement::new(ends, colour.stroke_width(FINE))))?;
+        chart.draw_series(mark(place, series))?;
+    }
+    Ok(())
+}
+
+/// Name and look of each series, in two columns below the plot.
+fn draw_legend(area: &Area, shown: &[&Series]) -> Result<(), DrawingError> {
+    let fine = |(x, y): (u32, u32)| ((x * FINE) as i32, (y * FINE) as i32);
+    let style = ("sans-serif", TEXT * FINE).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+    for (index, series) in (0..).zip(shown) {
+        let left = 30 + index % LEGEND_COLUMNS * (WIDTH - 30) / LEGEND_COLUMNS;
+        let middle = index / LEGEND_COLUMNS * LEGEND_LINE + LEGEND_LINE / 2;
+        let dashes: &[(u32, u32)] = match series.line {
+            Line::None => &[],
+            Line::Solid => &[(0, 28)],
+            Line::Dashed => &[(0, 6), (11, 17), (22, 28)],
+        };
+        for (from, to) in dashes {
+            let ends = [fine((left + from, middle)), fine((left + to, middle))];
+            area.draw(&PathElement::new(ends, colour(series).stroke_width(LINE)))?;
+        }
+        if let Some(mark) = mark(fine((left + 14, middle)), series) {
+            area.draw(&mark)?;
+        }
+        area.draw(&Text::new(series.name.clone(), fine((left + 36, middle)), style.clone()))?;
+    }
+    Ok(())
+}
+
+/// The mark of a series at a place.
+fn mark<'b, C: Clone + 'b>(place: C, series: &Series) -> Option<DynElement<'b, SVGBackend<'b>, C>> {
+    const RADIUS: u32 = 4 * FINE;
+    let colour = colour(series);
+    let square = |half: u32| {
+        let half = half as i32;
+        EmptyElement::at(place.clone()) + Rectangle::new([(-half, -half), (half, half)], colour.filled())
+    };
+    Some(match series.marker {
+        Marker::None => return None,
+        Marker::Circle => Circle::new(place, RADIUS, colour.filled()).into_dyn(),
+        Marker::Ring => Circle::new(place, RADIUS, colour.stroke_width(LINE)).into_dyn(),
+        Marker::Triangle => TriangleMarker::new(place, RADIUS + 2 * FINE, colour.filled()).into_dyn(),
+        Marker::Cross => Cross::new(place, RADIUS, colour.stroke_width(LINE)).into_dyn(),
+        Marker::Square => square(RADIUS).into_dyn(),
+        Marker::Tile(size) => square(size * FINE / 2).into_dyn(),
+    })
+}
+
+fn colour(series: &Series) -> RGBColor {
+    PALETTE[series.colour % PALETTE.len()]
+}
