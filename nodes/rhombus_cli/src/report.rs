@@ -1,5 +1,7 @@
 //! `rhombus report`: what the model is worth, measured here and now, beside its peers.
 
+mod closed_loop;
+mod elapsed;
 mod figure;
 mod half_space;
 mod html;
@@ -9,6 +11,7 @@ mod page;
 mod plot;
 mod progress;
 mod section;
+mod stability_map;
 mod staging;
 mod table;
 mod ticks;
@@ -29,7 +32,8 @@ use staging::Staging;
 use rhombus_cli::output;
 
 /// Every section, in the order of the page.
-const SECTIONS: &[Section] = &[half_space::SECTION];
+const SECTIONS: &[Section] =
+    &[half_space::SECTION, elapsed::SECTION, stability_map::SECTION, closed_loop::SECTION];
 
 /// Measure error, run time and stability here, beside other models: HTML, Markdown, SVG and CSV
 ///

@@ -50,13 +50,16 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
             for around in loops(handle) {
                 let bound_n_per_m = bound(&around);
                 let found = simulation::largest_stable_stiffness(&around, law, *depth_m, bound_n_per_m);
-                let limit_n_per_m = found.ok_or_else(|| anyhow::anyhow!("no limit found for {body} with {around:?}"))?;
+                let limit_n_per_m =
+                    found.ok_or_else(|| anyhow::anyhow!("no limit found for {body} with {around:?}"))?;
                 cases.push(Case { body, around, limit_n_per_m, bound_n_per_m });
             }
         }
     }
-    let above = cases.iter().filter(|case| case.bound_n_per_m > case.limit_n_per_m * (1.0 + BISECTION)).count();
-    let closest = cases.iter().map(|case| case.limit_n_per_m / case.bound_n_per_m).fold(f64::INFINITY, f64::min);
+    let above =
+        cases.iter().filter(|case| case.bound_n_per_m > case.limit_n_per_m * (1.0 + BISECTION)).count();
+    let closest =
+        cases.iter().map(|case| case.limit_n_per_m / case.bound_n_per_m).fold(f64::INFINITY, f64::min);
     let farthest = cases.iter().map(|case| case.limit_n_per_m / case.bound_n_per_m).fold(0.0, f64::max);
     let spread = spread_over_delay(&cases);
     Ok(SectionOutput {
@@ -146,7 +149,9 @@ fn bound(around: &Loop) -> f64 {
 /// Largest relative difference between the limits of one loop through the local law at different delays.
 fn spread_over_delay(cases: &[Case]) -> f64 {
     let same = |a: &Case, b: &Case| {
-        let of = |case: &Case| (case.around.handle.mass_kg, case.around.handle.damping_n_s_per_m, case.around.rate_hz);
+        let of = |case: &Case| {
+            (case.around.handle.mass_kg, case.around.handle.damping_n_s_per_m, case.around.rate_hz)
+        };
         a.body == b.body && of(a) == of(b)
     };
     let local = || cases.iter().filter(|case| case.around.route == Route::LocalLaw);
@@ -176,7 +181,9 @@ fn limits(cases: &[Case]) -> Exhibit {
         let loop_cells: [Cell; 4] =
             [handle.mass_kg, handle.damping_n_s_per_m, rate_hz, 1e3 * delay_s].map(Cell::Number);
         let found = [case.limit_n_per_m, case.bound_n_per_m, case.limit_n_per_m / case.bound_n_per_m];
-        table.push([case.body.into(), route.into()].into_iter().chain(loop_cells).chain(found.map(Cell::Number)));
+        table.push(
+            [case.body.into(), route.into()].into_iter().chain(loop_cells).chain(found.map(Cell::Number)),
+        );
     }
     // The first handle; every other one is in the table.
     let first = cases.first().map(|case| case.around.handle.mass_kg);
@@ -184,7 +191,10 @@ fn limits(cases: &[Case]) -> Exhibit {
     let of = |body: &str, route: Route, rate_hz: f64| {
         let wanted = move |case: &&Case| {
             let Loop { handle, rate_hz: rate, route: way, .. } = case.around;
-            way == route && rate == rate_hz && Some(handle.mass_kg) == first && Some(handle.damping_n_s_per_m) == damping
+            way == route
+                && rate == rate_hz
+                && Some(handle.mass_kg) == first
+                && Some(handle.damping_n_s_per_m) == damping
         };
         let body = body.to_owned();
         cases.iter().filter(wanted).filter(move |case| case.body == body)
@@ -197,12 +207,25 @@ fn limits(cases: &[Case]) -> Exhibit {
         let local = of("energy law, pulled to its guard", Route::LocalLaw, rate_hz);
         let limit = |case: &Case| (delay_ms(case), case.limit_n_per_m);
         series.push(
-            Series::line(&format!("bound, topics, {rate_hz} Hz"), colour, spring().map(|case| (delay_ms(case), case.bound_n_per_m)))
-                .dashed(),
+            Series::line(
+                &format!("bound, topics, {rate_hz} Hz"),
+                colour,
+                spring().map(|case| (delay_ms(case), case.bound_n_per_m)),
+            )
+            .dashed(),
         );
-        series.push(Series::line(&format!("spring, topics, {rate_hz} Hz"), colour, spring().map(limit)).scattered(Marker::Circle));
-        series.push(Series::line(&format!("energy law, topics, {rate_hz} Hz"), colour, energy.map(limit)).scattered(Marker::Cross));
-        series.push(Series::line(&format!("energy law, local law, {rate_hz} Hz"), colour, local.map(limit)).marked(Marker::Square));
+        series.push(
+            Series::line(&format!("spring, topics, {rate_hz} Hz"), colour, spring().map(limit))
+                .scattered(Marker::Circle),
+        );
+        series.push(
+            Series::line(&format!("energy law, topics, {rate_hz} Hz"), colour, energy.map(limit))
+                .scattered(Marker::Cross),
+        );
+        series.push(
+            Series::line(&format!("energy law, local law, {rate_hz} Hz"), colour, local.map(limit))
+                .marked(Marker::Square),
+        );
     }
     Exhibit {
         name: "closed_loop",

@@ -30,13 +30,15 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
     }
     let last = checkpoints.last().copied();
     let verdict = match last {
-        Some(Checkpoint { steps, same_memory: Drift { compared, force_n, field_m, energy_j }, .. }) => Verdict::new(
-            SECTION.asks[0].what,
-            format!(
-                "{force_n:e} N, {field_m:e} m, {energy_j:e} J in {compared} returns over {steps} steps of 1 ms"
-            ),
-            compared > 0 && force_n == 0.0 && field_m == 0.0 && energy_j == 0.0,
-        ),
+        Some(Checkpoint { steps, same_memory: Drift { compared, force_n, field_m, energy_j }, .. }) => {
+            Verdict::new(
+                SECTION.asks[0].what,
+                format!(
+                    "{force_n:e} N, {field_m:e} m, {energy_j:e} J in {compared} returns over {steps} steps of 1 ms"
+                ),
+                compared > 0 && force_n == 0.0 && field_m == 0.0 && energy_j == 0.0,
+            )
+        }
         None => Verdict::not_judged(SECTION.asks[0].what, "no session"),
     };
     Ok(SectionOutput {

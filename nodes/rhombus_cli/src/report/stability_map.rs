@@ -36,7 +36,8 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
         Mode::Quick => 10,
         Mode::Full => 1000,
     };
-    let tally = tally(blocks, |done| context.progress.step(&format!("{} of {} cases", done * BLOCK, blocks * BLOCK)));
+    let tally =
+        tally(blocks, |done| context.progress.step(&format!("{} of {} cases", done * BLOCK, blocks * BLOCK)));
     let cases = blocks * BLOCK;
     Ok(SectionOutput {
         text: vec![
@@ -95,7 +96,8 @@ impl Tally {
             Formulation::Published => "published",
             Formulation::Energy => "energy",
         };
-        let tried = catch_unwind(AssertUnwindSafe(|| checks::outcome(extreme).map_err(|third| third.to_string())));
+        let tried =
+            catch_unwind(AssertUnwindSafe(|| checks::outcome(extreme).map_err(|third| third.to_string())));
         let outcome = match tried.unwrap_or_else(|_| Err(format!("panic: {extreme:?}"))) {
             Ok(Outcome::Accepted) => OUTCOMES[0],
             Ok(Outcome::SnapsThrough) => OUTCOMES[1],
@@ -171,7 +173,8 @@ fn outcomes(tally: &Tally) -> Exhibit {
     Exhibit {
         name: "stability_outcomes",
         title: "What became of random chains".to_owned(),
-        caption: "Counts by force law; third outcomes, if there are any, in full in the raw numbers.".to_owned(),
+        caption: "Counts by force law; third outcomes, if there are any, in full in the raw numbers."
+            .to_owned(),
         figure: None,
         table,
         raw: Some(raw),
@@ -180,7 +183,12 @@ fn outcomes(tally: &Tally) -> Exhibit {
 
 /// Where in the plane of stiffness ratio and angle energy laws are accepted.
 fn map(tally: &Tally) -> Exhibit {
-    let bands = [(0.0, "none accepted", 7), (0.25, "up to a quarter", 5), (0.5, "up to a half", 1), (0.75, "up to three quarters", 4)];
+    let bands = [
+        (0.0, "none accepted", 7),
+        (0.25, "up to a quarter", 5),
+        (0.5, "up to a half", 1),
+        (0.75, "up to three quarters", 4),
+    ];
     let mut table = Table::new([("k_t/k_n", ""), ("theta", "deg"), ("accepted", ""), ("cases", "")]);
     let mut tiles = vec![Vec::new(); bands.len() + 1];
     for (index, [accepted, cases]) in tally.bins.iter().enumerate() {
@@ -194,7 +202,9 @@ fn map(tally: &Tally) -> Exhibit {
         }
     }
     let names = bands.iter().map(|(_, name, colour)| (*name, *colour)).chain([("more", 2)]);
-    let series = names.zip(tiles).map(|((name, colour), tiles)| Series::line(name, colour, tiles).scattered(Marker::Tile(20)));
+    let series = names
+        .zip(tiles)
+        .map(|((name, colour), tiles)| Series::line(name, colour, tiles).scattered(Marker::Tile(20)));
     Exhibit {
         name: "stability_map",
         title: "Energy laws: share accepted".to_owned(),
@@ -224,7 +234,10 @@ mod tests {
         for outcome in &OUTCOMES[..4] {
             assert!(tally.counts.keys().any(|(_, name)| name == outcome), "{outcome}");
         }
-        assert!(!tally.counts.contains_key(&("published", OUTCOMES[1])), "the published law never snaps through");
+        assert!(
+            !tally.counts.contains_key(&("published", OUTCOMES[1])),
+            "the published law never snaps through"
+        );
     }
 
     #[test]

@@ -73,7 +73,10 @@ impl Step {
     }
 
     fn take(&self, (x, v): (f64, f64), force_n: f64) -> (f64, f64) {
-        (x + v * self.way_per_velocity + force_n * self.way_per_n, v * self.velocity_kept + force_n * self.velocity_per_n)
+        (
+            x + v * self.way_per_velocity + force_n * self.way_per_n,
+            v * self.velocity_kept + force_n * self.velocity_per_n,
+        )
     }
 }
 
@@ -108,7 +111,8 @@ pub(crate) fn motion(around: &Loop, touch: &Touch, height_m: f64, samples: usize
     let mut state = (height_m, 0.0);
     // Before the start it stood there for ever.
     let start_m = touch.depth_m - height_m;
-    let mut forces: VecDeque<f64> = std::iter::repeat_n(force_n(&plane(start_m), start_m), whole + 1).collect();
+    let mut forces: VecDeque<f64> =
+        std::iter::repeat_n(force_n(&plane(start_m), start_m), whole + 1).collect();
     let mut laws: VecDeque<LocalLaw> = std::iter::repeat_n(plane(start_m), whole + 1).collect();
     for _ in 0..samples {
         seen(state.0);
@@ -153,7 +157,11 @@ pub(crate) fn growth(around: &Loop, touch: &Touch, height_m: f64, samples: usize
         }
         count += 1;
     });
-    if late.is_infinite() || early.is_infinite() { f64::INFINITY } else { late / early.max(f64::MIN_POSITIVE) }
+    if late.is_infinite() || early.is_infinite() {
+        f64::INFINITY
+    } else {
+        late / early.max(f64::MIN_POSITIVE)
+    }
 }
 
 /// The stiffness at which a loop stops coming to rest, N/m, to about half a percent; `stiffness_n_per_m`: of the law at
@@ -248,8 +256,13 @@ mod tests {
 
     fn bound(around: &Loop) -> f64 {
         let delay_s = if around.route == Route::Topics { around.delay_s } else { 0.0 };
-        HapticLoop { rate_hz: around.rate_hz, delay_s, damping_n_s_per_m: None, rendered_damping_n_s_per_m: 0.0 }
-            .largest_passive_stiffness_n_per_m(around.handle.damping_n_s_per_m)
+        HapticLoop {
+            rate_hz: around.rate_hz,
+            delay_s,
+            damping_n_s_per_m: None,
+            rendered_damping_n_s_per_m: 0.0,
+        }
+        .largest_passive_stiffness_n_per_m(around.handle.damping_n_s_per_m)
     }
 
     fn limit(around: &Loop, law: &ContactLaw, depth_m: f64) -> f64 {
@@ -299,7 +312,8 @@ mod tests {
     fn more_delay_never_raises_the_limit_through_topics_and_changes_nothing_through_the_local_law() {
         for (law, depth_m) in laws() {
             let limits = |route| {
-                [0.0, 0.0004, 0.001, 0.003, 0.01, 0.02].map(|delay_s| limit(&around(delay_s, route), &law, depth_m))
+                [0.0, 0.0004, 0.001, 0.003, 0.01, 0.02]
+                    .map(|delay_s| limit(&around(delay_s, route), &law, depth_m))
             };
             let topics = limits(Route::Topics);
             assert!(topics.windows(2).all(|pair| pair[1] < pair[0]), "{topics:?}");
@@ -314,7 +328,10 @@ mod tests {
             for delay_s in [0.0, 0.001, 0.005, 0.02] {
                 let around = around(delay_s, Route::Topics);
                 let (bound, limit) = (bound(&around), limit(&around, &law, depth_m));
-                assert!(bound < 1.005 * limit && limit < 2.0 * bound, "{delay_s}: bound {bound}, limit {limit}");
+                assert!(
+                    bound < 1.005 * limit && limit < 2.0 * bound,
+                    "{delay_s}: bound {bound}, limit {limit}"
+                );
             }
         }
     }

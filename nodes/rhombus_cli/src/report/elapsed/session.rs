@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 use rhombus_chain::{
-    Body, ChainParameters, ContactLaw, Formulation, Interaction, Mode, Step, SurfaceField, SurfaceParameters, SurfacePoint,
-    Tissue,
+    Body, ChainParameters, ContactLaw, Formulation, Interaction, Mode, Step, SurfaceField, SurfaceParameters,
+    SurfacePoint, Tissue,
 };
 use scene::{BodyKind, MeshFile, sites};
 
@@ -82,7 +82,18 @@ impl Session {
         let drift = Drift::default();
         let now = Checkpoint { steps: 0, same_memory: drift, other_memory: drift, peak_force_n: 0.0 };
         let (interaction, first) = (Interaction::new(), BTreeMap::new());
-        Ok(Session { body, tissue, places, interaction, field, random: Random::new(1), stamp_ns: 0, probe, now, first })
+        Ok(Session {
+            body,
+            tissue,
+            places,
+            interaction,
+            field,
+            random: Random::new(1),
+            stamp_ns: 0,
+            probe,
+            now,
+            first,
+        })
     }
 
     /// Goes on until at least so many steps have been made.
@@ -168,7 +179,9 @@ impl Drift {
 
 /// Largest difference over all vertices; where one field has no entry, nothing moves.
 fn field_difference_m(a: &Answer, b: &Answer) -> f64 {
-    let entries = |answer: &Answer| answer.vertices.iter().copied().zip(answer.displacements_m.iter().copied()).collect();
+    let entries = |answer: &Answer| {
+        answer.vertices.iter().copied().zip(answer.displacements_m.iter().copied()).collect()
+    };
     let (a, b): (BTreeMap<u32, DVec3>, BTreeMap<u32, DVec3>) = (entries(a), entries(b));
     let of = |field: &BTreeMap<u32, DVec3>, vertex| field.get(vertex).copied().unwrap_or(DVec3::ZERO);
     let vertices = a.keys().chain(b.keys());
@@ -213,7 +226,12 @@ mod tests {
 
     #[test]
     fn a_field_that_differs_in_one_vertex_by_a_bit_is_seen() {
-        let one = Answer { force_n: DVec3::X, energy_j: 1.0, vertices: vec![3, 7], displacements_m: vec![DVec3::X, DVec3::Y] };
+        let one = Answer {
+            force_n: DVec3::X,
+            energy_j: 1.0,
+            vertices: vec![3, 7],
+            displacements_m: vec![DVec3::X, DVec3::Y],
+        };
         let mut other = one.clone();
         let mut drift = Drift::default();
         drift.add(&one, &other);
