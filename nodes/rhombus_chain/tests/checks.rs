@@ -2,6 +2,7 @@
 //!
 //! The residual of closed paths is a statistic of seeded paths, so that halving the step can be seen to quarter it.
 #![allow(clippy::expect_used, clippy::panic, reason = "a test whose case cannot be set up fails")]
+#![allow(clippy::print_stdout, reason = "what was measured")]
 
 mod common;
 

@@ -13,7 +13,7 @@ use crate::output;
 
 /// Force, stiffness and surface shape of a contact law at one depth, or at the depth that one force needs.
 ///
-/// Only the chains.* parameters are needed; no mesh is loaded. Depth is positive into the body, every force is on the
+/// Only the chains.* parameters are needed; no mesh and no stiffness map is loaded. Depth is positive into the body, every force is on the
 /// hand and positive pushes out; dl_1, d_theta and dw_1 have the model's signs (negative dl_1 is pressed).
 #[derive(Args)]
 pub(crate) struct Evaluate {
@@ -61,6 +61,9 @@ struct Evaluation {
     formulation: String,
     chains: Vec<ChainEvaluation>,
     profile: Vec<ProfilePoint>,
+    /// Every force and stiffness above is multiplied by its factor at the contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stiffness_map: Option<PathBuf>,
 }
 
 #[derive(Serialize)]
@@ -90,7 +93,8 @@ impl Evaluate {
             }
             At { depth, .. } => depth.unwrap_or(0.0),
         };
-        let evaluation = evaluate(&law, &scene.surface_parameters(), depth_m, &self.profile)?;
+        let mut evaluation = evaluate(&law, &scene.surface_parameters(), depth_m, &self.profile)?;
+        evaluation.stiffness_map = scene.body.stiffness_map;
         match self.json {
             true => output::json(&evaluation),
             false => output::text(&evaluation.to_string()),
@@ -133,6 +137,7 @@ fn evaluate(
         formulation: law.formulation().to_string(),
         chains: chains.collect(),
         profile: profile.collect(),
+        stiffness_map: None,
     })
 }
 
@@ -162,6 +167,13 @@ impl std::fmt::Display for Evaluation {
         }
         for p in &self.profile {
             writeln!(text, "{:>8.3} {:>12.6} {:>14.6}", p.s_m * 1e3, p.normal_m * 1e3, p.tangential_m * 1e3)?;
+        }
+        if let Some(map) = &self.stiffness_map {
+            writeln!(
+                text,
+                "all for factor 1 of {}: on the body force and stiffness are multiplied by it",
+                map.display()
+            )?;
         }
         f.write_str(&text)
     }

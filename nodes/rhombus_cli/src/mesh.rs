@@ -1,4 +1,6 @@
-//! `rhombus mesh`: make bodies, look at mesh files, find places to press.
+//! `rhombus mesh`: make bodies, look at mesh files, find places to press, say where they are stiff.
+
+mod stiffness;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -17,6 +19,7 @@ pub(crate) enum Mesh {
     Make(Make),
     Info(Info),
     Sites(Sites),
+    Stiffness(stiffness::Stiffness),
 }
 
 impl Mesh {
@@ -25,6 +28,7 @@ impl Mesh {
             Mesh::Make(command) => command.run(),
             Mesh::Info(command) => command.run(),
             Mesh::Sites(command) => command.run(),
+            Mesh::Stiffness(command) => command.run(),
         }
     }
 }

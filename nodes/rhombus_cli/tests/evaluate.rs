@@ -181,3 +181,18 @@ fn a_bad_file_is_refused_with_its_name_line_key_and_value() {
         "rhombus: b.yaml: cannot be read: No such file or directory (os error 2)\n"
     );
 }
+
+#[test]
+fn a_stiffness_map_is_named_and_not_read() {
+    let text = format!("{PAPER}    body.stiffness_map: nodule.csv\n");
+    let folder = Folder::new().with("p.yaml", &text);
+    let json = folder.json(&["evaluate", "p.yaml", "--depth", "0.006", "--json"]);
+    assert_eq!(json["stiffness_map"], "nodule.csv");
+    let text = folder.success(&["evaluate", "p.yaml", "--depth", "0.006"]);
+    assert!(
+        text.ends_with(
+            "all for factor 1 of nodule.csv: on the body force and stiffness are multiplied by it\n"
+        ),
+        "{text}"
+    );
+}
