@@ -11,7 +11,7 @@
 //! - the elements run along the contact's normal, one on each point of a square lattice through the site whose pitch
 //!   is the mean edge of the surface; the end towards the contact is the one that moves, the far end is held. So the system is
 //!   built and solved whenever the contact moves, and a query scales its answer (the equations are linear);
-//! - an element whose moving end lies in a triangle with a held corner does not move;
+//! - an element whose moving end lies in a triangle with three held corners does not move;
 //! - neighbours are linked where their pieces overlap, with one tension tau for the whole body. The method ties it to no
 //!   elastic constant; we choose it so that one ideal site has the stiffness 2 E a/(1 - nu^2) of a flat punch on an elastic
 //!   half-space (a no smaller than the radius of one element): a flat layer of elements of this pitch and of the body's mean
@@ -190,7 +190,7 @@ impl Lem {
                 let touched = aside_m <= self.contact_radius_m * (1.0 + 1e-9) + 1e-9 * self.pitch_m
                     && to.abs() <= reach;
                 let corners = self.surface.triangles()[piece.end_face as usize];
-                let held = corners.iter().any(|&vertex| self.fixed[vertex as usize]);
+                let held = corners.iter().all(|&vertex| self.fixed[vertex as usize]);
                 #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 elements fit")]
                 ends.push((layer.ends.len() as u32, to));
                 layer.ends.push(match (touched, held) {

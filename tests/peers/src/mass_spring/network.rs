@@ -8,8 +8,8 @@
 //! ```
 //!
 //! and an edge of a mesh gets the sum over its tetrahedra. (The same number minimises the distance, over all components,
-//! between the two elasticity tensors, which the test below repeats.) For tetrahedra that are not regular we take l of
-//! the regular one of the same volume. A quarter of a tetrahedron's mass goes to each corner.
+//! between the two elasticity tensors, which the test below repeats.) For tetrahedra that are not regular l is the mean of
+//! the six edges. A quarter of a tetrahedron's mass goes to each corner.
 
 use glam::DVec3;
 
@@ -37,9 +37,11 @@ pub(super) struct Network {
 }
 
 /// Stiffness of the springs of one tetrahedron, N/m.
-fn stiffness_n_per_m(volume_m3: f64, young_pa: f64) -> f64 {
-    let edge_m = (6.0 * std::f64::consts::SQRT_2 * volume_m3).cbrt();
-    2.0 * std::f64::consts::SQRT_2 / 25.0 * edge_m * young_pa
+fn stiffness_n_per_m(corners: [DVec3; 4], young_pa: f64) -> f64 {
+    let [a, b, c, d] = corners;
+    let edges = [(a, b), (a, c), (a, d), (b, c), (b, d), (c, d)];
+    let mean_edge_m = edges.iter().map(|(from, to)| from.distance(*to)).sum::<f64>() / 6.0;
+    2.0 * std::f64::consts::SQRT_2 / 25.0 * mean_edge_m * young_pa
 }
 
 impl Network {
@@ -57,7 +59,7 @@ impl Network {
         for tet in &volume.tets {
             let [a, b, c, d] = tet.map(|node| rest[node as usize]);
             let volume_m3 = (b - a).cross(c - a).dot(d - a) / 6.0;
-            let stiffness_n_per_m = stiffness_n_per_m(volume_m3, young_pa);
+            let stiffness_n_per_m = stiffness_n_per_m([a, b, c, d], young_pa);
             for (i, &from) in tet.iter().enumerate() {
                 mass[from as usize] += density_kg_per_m3 * volume_m3 / 4.0;
                 for &to in &tet[i + 1..] {
@@ -162,7 +164,7 @@ mod tests {
                     for b in a + 1..4 {
                         let edge = corners[b] - corners[a];
                         let e = edge.normalize_or_zero();
-                        let stiffness = factor * stiffness_n_per_m(volume, young);
+                        let stiffness = factor * stiffness_n_per_m(corners, young);
                         springs += stiffness * edge.length_squared() / volume * e[i] * e[j] * e[k] * e[l];
                     }
                 }

@@ -49,7 +49,7 @@ impl Elements {
     }
 
     /// Elements at all lattice points inside the surface, and one nearest to each of its vertices; those nearest to a
-    /// held vertex are held.
+    /// held vertex, and to no other, are held.
     pub(super) fn inside(surface: &SurfaceMesh, fixed: &[bool], pitch_m: f64) -> Self {
         let [low, high] = surface.extents();
         let low = low - DVec3::splat(pitch_m);
@@ -68,12 +68,10 @@ impl Elements {
             }
         }
         let mut elements = Self { size, cells, low, pitch_m };
-        for (&at, &held) in surface.vertices().iter().zip(fixed) {
-            let cell = elements.nearest(at);
-            if held {
-                elements.cells[cell] = Cell::Held;
-            } else if elements.cells[cell] == Cell::Outside {
-                elements.cells[cell] = Cell::Free;
+        for (kind, of_held) in [(Cell::Held, true), (Cell::Free, false)] {
+            for (&at, _) in surface.vertices().iter().zip(fixed).filter(|&(_, &held)| held == of_held) {
+                let cell = elements.nearest(at);
+                elements.cells[cell] = kind;
             }
         }
         elements
