@@ -37,7 +37,7 @@ fn chain(decay_m: f64, weight: f64) -> ChainParameters {
     ChainParameters {
         rod_length_m: 0.01,
         angle_rad: 0.5,
-        ratio: (-0.16_f64).exp(),
+        ratio: libm::exp(-0.16),
         units: 100,
         normal_stiffness_n_per_m: 300.0,
         tangential_stiffness_n_per_m: 0.0,
@@ -49,7 +49,7 @@ fn chain(decay_m: f64, weight: f64) -> ChainParameters {
 
 /// Twice as stiff on one side as on the other, in log.
 fn factor(normal: DVec3) -> f64 {
-    (0.3 * normal.x + 0.2 * normal.z).exp()
+    libm::exp(0.3 * normal.x + 0.2 * normal.z)
 }
 
 fn mesh() -> SurfaceMesh {

@@ -13,11 +13,11 @@ use rhombus_cli::calibrate::{Fitted, ForcePoint};
 
 /// A chain of the family that is fitted: a hundred units over sixteen decay lengths of 4 mm, flat at 15 mm.
 fn chain(formulation: Formulation) -> ChainParameters {
-    let ratio = (-0.16_f64).exp();
+    let ratio = libm::exp(-0.16);
     let s = (1.0 - ratio.powi(100)) / (1.0 - ratio);
     let angle_rad = 0.8_f64;
     ChainParameters {
-        rod_length_m: 0.015 / (2.0 * angle_rad.sin() * s),
+        rod_length_m: 0.015 / (2.0 * libm::sin(angle_rad) * s),
         angle_rad,
         ratio,
         units: 100,
@@ -199,7 +199,7 @@ fn a_table_in_millimetres_is_read_and_its_law_written() {
     }
     let at = folder.json(&["evaluate", "out.yaml", "--depth", "0.006", "--profile", "0.004", "--json"]);
     near(at["force_n"].as_f64().expect("a number"), law.at_depth(0.006).expect("finite").force_n, 2e-3);
-    near(at["profile"][0]["normal_m"].as_f64().expect("a number"), -0.006 * (-1.0_f64).exp(), 1e-3);
+    near(at["profile"][0]["normal_m"].as_f64().expect("a number"), -0.006 * libm::exp(-1.0), 1e-3);
 }
 
 #[test]
