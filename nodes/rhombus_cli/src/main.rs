@@ -5,13 +5,15 @@ mod assignments;
 mod evaluate;
 mod explain;
 mod mesh;
-mod output;
 mod parameters;
+#[cfg(feature = "report")]
+mod report;
 mod stability;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use rhombus_cli::{calibrate, output};
 
 /// Contact laws, scenes and bodies of the parallel rhombus-chain model, without ROS.
 #[derive(Parser)]
@@ -23,27 +25,35 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    Calibrate(Box<calibrate::Calibrate>),
     Evaluate(evaluate::Evaluate),
     Explain(explain::Explain),
     #[command(subcommand)]
     Mesh(mesh::Mesh),
     Parameters(parameters::Parameters),
+    #[cfg(feature = "report")]
+    Report(report::Report),
     Stability(stability::Stability),
 }
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
+        Command::Calibrate(command) => command.run(),
         Command::Evaluate(command) => command.run(),
         Command::Explain(command) => command.run(),
         Command::Mesh(command) => command.run(),
         Command::Parameters(command) => command.run(),
         Command::Stability(command) => command.run(),
+        #[cfg(feature = "report")]
+        Command::Report(command) => return command.run().unwrap_or_else(|error| refused(&error)),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("rhombus: {error:#}");
-            ExitCode::from(2)
-        }
+        Err(error) => refused(&error),
     }
+}
+
+fn refused(error: &anyhow::Error) -> ExitCode {
+    eprintln!("rhombus: {error:#}");
+    ExitCode::from(2)
 }
