@@ -1,9 +1,9 @@
 """The reference solutions of the liver.
 
-    python liver.py sites|nu|inclusion|two [--rhombus PROGRAM] [--sites 72]
+    python liver.py sites|nu|inclusion|two|convergence|tets [--rhombus PROGRAM] [--sites 72]
 
 Every solution is kept in `solutions/` (not committed), so that an interrupted run goes on where it was; the committed
-files in `results/` are written from them. `sites` writes liver_r5.npz and liver_r2.npz after every ninth site."""
+files in `results/` are written from them. `sites` writes liver_r5.npz and liver_r2.npz after every eighth site."""
 
 import argparse
 import subprocess
@@ -18,6 +18,7 @@ import elasticity
 import sites
 import volume
 from surface import RIM_SET_BACK, Disc, SizeField, Surface, divide, icosphere, read_obj
+from tables import percent, write_csv
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results"
@@ -30,12 +31,12 @@ INCLUSION_FACTOR, INCLUSION_RADIUS, INCLUSION_DEPTH = 10.0, 0.008, 0.012
 class Mesh:
     """The liver divided around some sites, every disc's rim set back (see RIM_SET_BACK). `discs`: [site][radius]."""
 
-    def __init__(self, body: Surface, vertices, radii=RADII, cells=8.0, growth=0.5, ratio=1.3, inner: Surface | None = None):
+    def __init__(self, body: Surface, vertices, radii=RADII, cells=8.0, growth=0.5, ratio=1.3, most=np.inf, inner=None):
         normals = body.vertex_normals()
         back = 1 - RIM_SET_BACK / cells
         self.normals = [normals[v] for v in vertices]
         self.discs = [[Disc(body.vertices[v], normals[v], back * r) for r in radii] for v in vertices]
-        size = SizeField([d for of_site in self.discs for d in of_site], cells, growth=growth)
+        size = SizeField([d for of_site in self.discs for d in of_site], cells, growth=growth, most=most)
         self.surface, parent = divide(body, size)
         self.nodes, self.tets = volume.fill(self.surface, inner, ratio)
         self._corners, self._base = body.faces[parent], body.base()
@@ -109,7 +110,7 @@ def run_sites(body: Surface, count: int) -> None:
     chosen, done = sites.choose(body, count), []
     for vertex in chosen:
         done.append(kept(f"site_{vertex}", lambda: solve(body, [vertex], RADII)))
-        if len(done) % sites.EVERY == 0 or len(done) == count:
+        if len(done) % 8 == 0 or len(done) == count:
             for k, radius in enumerate(RADII):
                 write(
                     f"liver_r{radius * 1e3:.0f}.npz",
@@ -149,7 +150,7 @@ def run_inclusion(body: Surface, count: int) -> None:
     top = int(sites.choose(body, 1)[0])
     chosen = [top] + [v for mm in (8, 16, 28) for v in around(body, top, mm * 1e-3, 4)]
     centre = body.vertices[top] - INCLUSION_DEPTH * body.vertex_normals()[top]
-    ball = icosphere(centre, INCLUSION_RADIUS, 3)
+    ball = icosphere(centre, INCLUSION_RADIUS)
 
     def one(vertex):
         mesh = Mesh(body, [vertex], RADII[:1], inner=ball)
@@ -201,12 +202,54 @@ def make_liver(rhombus: str, vertices: int = 3116) -> Surface:
         return read_obj(path)
 
 
-RUNS = {"sites": run_sites, "nu": run_nu, "inclusion": run_inclusion, "two": run_two}
+# The mesh of the results, and others to judge it by.
+MESHES = {
+    "coarser": {"cells": 6.0, "growth": 0.6, "ratio": 1.4},
+    "as used": {},
+    "finer at the disc": {"cells": 12.0, "growth": 0.35, "ratio": 1.2},
+    "finer everywhere": {"cells": 8.0, "growth": 0.5, "ratio": 1.3, "most": 0.003},
+}
+
+
+def run_convergence(body: Surface, count: int) -> None:
+    """The top and the last two held-out sites (edge, tip) on coarser and finer meshes, compared with the one used."""
+    chosen = sites.choose(body, count)
+    rows = []
+    for vertex in [chosen[0], *chosen[sites.held_out(count)][-2:]]:
+        used = kept(f"site_{vertex}", lambda: solve(body, [vertex], RADII))
+        near = np.linalg.norm(body.vertices - body.vertices[vertex], axis=1) < 0.030
+        for name, options in MESHES.items():
+            other = used if not options else kept(
+                f"convergence_{vertex}_{name.replace(' ', '_')}", lambda: solve(body, [vertex], RADII, **options)
+            )
+            for k, radius in enumerate(RADII):
+                a, b = used["displacement"][k].astype(float), other["displacement"][k].astype(float)
+                rows.append(
+                    {
+                        "site_vertex": vertex,
+                        "contact_radius_mm": radius * 1e3,
+                        "mesh": name,
+                        "elements": other["elements"],
+                        "dofs": other["dofs"],
+                        "stiffness_n_per_m": f"{other['stiffness'][k, 0]:.3f}",
+                        "stiffness_change_percent": percent(other["stiffness"][k, 0] / used["stiffness"][k, 0] - 1),
+                        "displacement_change_percent": percent(np.linalg.norm(b - a) / np.linalg.norm(a)),
+                        "within_30_mm_percent": percent(np.linalg.norm((b - a)[near]) / np.linalg.norm(a[near])),
+                    }
+                )
+    write_csv(RESULTS / "liver_convergence.csv", rows)
+
+
+RUNS = {"convergence": run_convergence, "sites": run_sites, "nu": run_nu, "inclusion": run_inclusion, "two": run_two}
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("run", choices=RUNS)
+    parser.add_argument("run", choices=[*RUNS, "tets"])
     parser.add_argument("--rhombus", default=str(HERE.parents[1] / "target" / "release" / "rhombus"))
     parser.add_argument("--sites", type=int, default=72)
     options = parser.parse_args()
-    RUNS[options.run](make_liver(options.rhombus), options.sites)
+    if options.run == "tets":
+        for size in (500, 1000, 3116):
+            volume.write_peers(make_liver(options.rhombus, size), HERE / "tets" / f"liver_{size}.npz")
+    else:
+        RUNS[options.run](make_liver(options.rhombus), options.sites)

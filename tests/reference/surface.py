@@ -59,7 +59,7 @@ def read_obj(path: Path) -> Surface:
     return Surface(np.array(vertices), np.array(faces, dtype=np.int64))
 
 
-def icosphere(centre: np.ndarray, radius: float, level: int) -> Surface:
+def icosphere(centre: np.ndarray, radius: float, level: int = 2) -> Surface:
     """A sphere as a polyhedron of the same volume: an icosahedron with its faces divided into four `level` times."""
     golden = (1 + 5**0.5) / 2
     corners = [(s, t * golden, 0) for s in (-1, 1) for t in (-1, 1)]
@@ -102,15 +102,16 @@ class Disc:
 @dataclass
 class SizeField:
     """Edge length wanted at a point: radius / `cells` at the rim of a disc, growing by `growth` per metre away from it, and
-    never above `inside` radii within a disc (default: 3 / cells, at most a third)."""
+    never above `inside` radii within a disc (default: 3 / cells, at most a third) nor above `most` metres anywhere."""
 
     discs: list[Disc]
     cells: float
     inside: float | None = None
     growth: float = 0.3
+    most: float = np.inf
 
     def __call__(self, x: np.ndarray) -> np.ndarray:
-        size = np.full(len(x), np.inf)
+        size = np.full(len(x), self.most)
         inside = self.inside or min(3 / self.cells, 1 / 3)
         for disc in self.discs:
             rho, height = disc.polar(x)
@@ -126,7 +127,11 @@ def divide(surface: Surface, size: SizeField) -> tuple[Surface, np.ndarray]:
 
     Returns the divided surface and, for each new triangle, the old face it is a part of."""
     refined, parent = _bisect(surface, size)
-    return _follow_rims(surface, refined, parent, size)
+    divided, parent = _follow_rims(surface, refined, parent, size)
+    sides = np.stack([divided.faces, np.roll(divided.faces, -1, axis=1)], axis=2).reshape(-1, 2)
+    if len(np.unique(sides, axis=0)) != len(sides) or set(map(tuple, sides)) != set(map(tuple, sides[:, ::-1])):
+        raise RuntimeError("the divided surface is not closed")
+    return divided, parent
 
 
 def _bisect(surface: Surface, size: SizeField):
@@ -329,7 +334,8 @@ def _triangulate(points, ring, free, normal):
     triangles = Delaunay(flat).simplices
     a, b, c = (flat[triangles[:, k]] for k in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
-    triangles = triangles[np.abs(area) > 1e-9]
-    area = area[np.abs(area) > 1e-9]
+    longest = np.maximum.reduce([((a - b) ** 2).sum(1), ((b - c) ** 2).sum(1), ((c - a) ** 2).sum(1)])
+    line = np.abs(area) < 1e-4 * longest  # three nodes of one edge
     triangles[area < 0] = triangles[area < 0][:, ::-1]
+    triangles = triangles[~line]
     return index[triangles]

@@ -19,10 +19,12 @@ def fill(surface: Surface, inner: Surface | None = None, ratio: float = 1.2, dih
         faces = np.vstack([faces, inner.faces + len(vertices)])
         vertices = np.vstack([vertices, inner.vertices])
     # Points nearer than `T` times the body's size are one to TetGen; which value it gets along with differs.
-    for tolerance in ("1e-10", "1e-8", "1e-12", "1e-14"):
+    for tolerance in (1e-10, 1e-8, 1e-12, 1e-14):
         try:
             generator = tetgen.TetGen(vertices, faces.astype(np.int32))
-            nodes, tets = generator.tetrahedralize(switches=f"pq{ratio}/{dihedral}YT{tolerance}Q")[:2]
+            nodes, tets = generator.tetrahedralize(
+                quality=True, nobisect=True, minratio=ratio, mindihedral=dihedral, epsilon=tolerance, steinerleft=-1
+            )[:2]
             break
         except RuntimeError as error:
             failure = error
