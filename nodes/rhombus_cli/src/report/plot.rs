@@ -5,8 +5,10 @@
 
 use anyhow::{Result, anyhow};
 use plotters::coord::Shift;
+use plotters::element::{Drawable, PointCollection};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters_backend::{BackendCoord, DrawingErrorKind};
 
 use super::figure::{Figure, Line, Marker, Point, Series};
 use super::ticks::Ticks;
@@ -163,22 +165,52 @@ fn draw_legend(area: &Area, shown: &[&Series]) -> Result<(), DrawingError> {
 }
 
 /// The mark of a series at a place.
-fn mark<'b, C: Clone + 'b>(place: C, series: &Series) -> Option<DynElement<'b, SVGBackend<'b>, C>> {
+fn mark<'b, C: Clone + 'static>(
+    place: C,
+    series: &Series,
+) -> Option<DynElement<'static, SVGBackend<'b>, C>> {
     const RADIUS: u32 = 4 * FINE;
-    let colour = colour(series);
-    let square = |half: u32| {
-        let half = half as i32;
-        EmptyElement::at(place.clone()) + Rectangle::new([(-half, -half), (half, half)], colour.filled())
-    };
+    let style = colour(series).stroke_width(LINE);
     Some(match series.marker {
         Marker::None => return None,
-        Marker::Circle => Circle::new(place, RADIUS, colour.filled()).into_dyn(),
-        Marker::Ring => Circle::new(place, RADIUS, colour.stroke_width(LINE)).into_dyn(),
-        Marker::Triangle => TriangleMarker::new(place, RADIUS + 2 * FINE, colour.filled()).into_dyn(),
-        Marker::Cross => Cross::new(place, RADIUS, colour.stroke_width(LINE)).into_dyn(),
-        Marker::Square => square(RADIUS).into_dyn(),
-        Marker::Tile(size) => square(size * FINE / 2).into_dyn(),
+        Marker::Circle => Circle::new(place, RADIUS, style.filled()).into_dyn(),
+        Marker::Ring => Circle::new(place, RADIUS, style).into_dyn(),
+        Marker::Triangle => TriangleMarker::new(place, RADIUS + 2 * FINE, style.filled()).into_dyn(),
+        Marker::Cross => Cross::new(place, RADIUS, style).into_dyn(),
+        Marker::Square => Square { place, half: RADIUS, style }.into_dyn(),
+        Marker::Tile(size) => Square { place, half: size * FINE / 2, style }.into_dyn(),
     })
+}
+
+/// A filled square of so many pixels at a place of the axes, which plotters does not have.
+struct Square<C> {
+    place: C,
+    half: u32,
+    style: ShapeStyle,
+}
+
+impl<'a, C> PointCollection<'a, C> for &'a Square<C> {
+    type Point = &'a C;
+    type IntoIter = std::iter::Once<&'a C>;
+
+    fn point_iter(self) -> Self::IntoIter {
+        std::iter::once(&self.place)
+    }
+}
+
+impl<C, DB: DrawingBackend> Drawable<DB> for Square<C> {
+    fn draw<I: Iterator<Item = BackendCoord>>(
+        &self,
+        places: I,
+        backend: &mut DB,
+        _: (u32, u32),
+    ) -> Result<(), DrawingErrorKind<DB::ErrorType>> {
+        let half = self.half as i32;
+        for (x, y) in places {
+            backend.draw_rect((x - half, y - half), (x + half, y + half), &self.style, true)?;
+        }
+        Ok(())
+    }
 }
 
 fn colour(series: &Series) -> RGBColor {
