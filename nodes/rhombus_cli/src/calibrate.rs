@@ -9,6 +9,7 @@ mod least_squares;
 pub mod measured;
 pub mod recording;
 mod regional;
+mod rings;
 mod shape;
 pub mod sites;
 pub mod table;

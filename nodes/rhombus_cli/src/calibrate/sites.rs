@@ -1,28 +1,18 @@
 //! Chains and a regional stiffness map from reference solutions at many sites. Held-out sites are never looked at.
 //!
-//! **Surface.** One set of chains for the whole body. With `n` the contact normal and `r` the direction away from the
-//! contact in its tangent plane the model moves a vertex by `G(arc) n + T(arc) r`; the two are perpendicular, so the squared
-//! error of the vector is that of its parts along `n` and `r` plus a constant, and the parts of all sites are averaged
-//! over narrow rings of arc length before the fit. A vertex at a site counts with
-//!
-//! ```text
-//! 1 / sum_near |u|^2  (within 30 mm of the contact)  +  0.1 / sum_all |u|^2
-//! ```
-//!
-//! so that the sum over the vertices is the squared relative error near the contact plus a tenth of the full one.
+//! **Surface.** One set of chains for the whole body, fitted to the averages of all sites over rings of arc length, where the
+//! neighbourhood of the contact counts most (see [`Rings`]). No number of chains leaves less than those averages do.
 //!
 //! **Force.** The references are linear: so are the chains (no tangential springs). Their stiffness is the geometric mean of
 //! the sites'; the map's factors are the sites' stiffnesses over it, interpolated over the surface.
 
-use glam::DVec3;
-use rhombus_chain::{
-    ArcLengths, Body, ChainParameters, Formulation, StiffnessMap, SurfaceMesh, SurfaceParameters,
-};
+use rhombus_chain::{Body, ChainParameters, Formulation, StiffnessMap, SurfaceMesh, SurfaceParameters};
 
-use super::errors::{self, NEAR_M, SiteError, Which, at_vertex, median, one_contact};
+use super::errors::{self, NEAR_M, SiteError, Which, median, one_contact};
 use super::fitted::{self, FitError, Fitted, Reached, Spring};
 use super::regional::{FEWEST_SITES, Interpolation, Place};
-use super::shape::{ShapePoint, ShapeTask};
+use super::rings::Rings;
+use super::shape::ShapeTask;
 use crate::reference::{Reference, ReferenceContact};
 
 /// A calibrated body.
@@ -40,15 +30,15 @@ pub struct FittedBody {
     pub used: Vec<SiteError>,
     /// Errors at the sites that were held out.
     pub held_out: Vec<SiteError>,
+    /// The least root of the mean squared `near_rel_l2` over the used sites that one shape for all of them can leave, however
+    /// many chains make it.
+    pub least_near: f64,
     /// The same as a calibration of any other kind.
     pub fitted: Fitted,
 }
 
-/// Share of the full field's error beside the near field's.
-const FULL: f64 = 0.1;
-
-/// Rings for each contact radius.
-const RINGS: f64 = 10.0;
+/// [`NEAR_M`] for people.
+const NEAR_MM: f64 = 1e3 * NEAR_M;
 
 /// Fewest sites that say something about the places between them.
 pub const FEWEST_FOR_MAP: usize = FEWEST_SITES;
@@ -75,7 +65,8 @@ pub fn fit(reference: &Reference, chains: usize, with_map: bool) -> Result<Fitte
         ends: true,
         closed_form: false,
     };
-    let shape = task.fit(&rings(reference, &mesh, &sites, &contacts, radius_m))?;
+    let rings = Rings::new(reference, &mesh, &sites, &contacts, radius_m);
+    let shape = task.fit(&rings.points)?;
     let logarithms: Vec<f64> = contacts.iter().map(|c| libm::log(c.stiffness_n_per_m)).collect();
     let mean = logarithms.iter().sum::<f64>() / logarithms.len() as f64;
     let spring = Spring {
@@ -120,6 +111,19 @@ pub fn fit(reference: &Reference, chains: usize, with_map: bool) -> Result<Fitte
     for (name, errors) in [("used", &used), ("held out", &held_out)] {
         fitted.reached.extend(summary(name, errors));
     }
+    let near =
+        used.iter().map(|error| error.near_rel_l2 * error.near_rel_l2).sum::<f64>() / used.len() as f64;
+    fitted.reached.extend([
+        Reached {
+            what: format!("{} sites used: surface within {NEAR_MM} mm, rms", used.len()),
+            relative: near.sqrt(),
+        },
+        Reached {
+            what: "  the least any number of chains can leave there: one shape, every site, every direction"
+                .to_owned(),
+            relative: rings.least_near,
+        },
+    ]);
     Ok(FittedBody {
         chains: fitted.chains.clone(),
         formulation: fitted.formulation,
@@ -127,6 +131,7 @@ pub fn fit(reference: &Reference, chains: usize, with_map: bool) -> Result<Fitte
         map,
         used,
         held_out,
+        least_near: rings.least_near,
         fitted,
     })
 }
@@ -140,11 +145,10 @@ fn summary(name: &str, errors: &[SiteError]) -> Vec<Reached> {
     let force = all(|error| error.force_rel);
     let worst = force.iter().copied().fold(0.0, f64::max);
     let sites = format!("{} sites {name}", errors.len());
-    let near_mm = 1e3 * NEAR_M;
     [
         ("force, median".to_owned(), median(force)),
         ("force, worst".to_owned(), worst),
-        (format!("surface within {near_mm} mm, median"), median(all(|error| error.near_rel_l2))),
+        (format!("surface within {NEAR_MM} mm, median"), median(all(|error| error.near_rel_l2))),
         ("whole surface, median".to_owned(), median(all(|error| error.full_rel_l2))),
     ]
     .into_iter()
@@ -171,73 +175,6 @@ fn contact_radius(reference: &Reference, sites: &[usize]) -> Result<f64, FitErro
             of(other)
         ))),
     }
-}
-
-/// Sums over the vertices in a ring of arc length.
-#[derive(Clone, Copy, Default)]
-struct Ring {
-    weight: f64,
-    arc: f64,
-    normal: f64,
-    tangential_weight: f64,
-    tangential: f64,
-}
-
-fn rings(
-    reference: &Reference,
-    mesh: &SurfaceMesh,
-    sites: &[usize],
-    contacts: &[ReferenceContact],
-    radius_m: f64,
-) -> Vec<ShapePoint> {
-    let mut arcs = ArcLengths::new(mesh);
-    let mut rings: Vec<Ring> = Vec::new();
-    for (site, contact) in sites.iter().zip(contacts) {
-        let exact = &reference.sites[*site].displacement;
-        let offset = |vertex: usize| mesh.vertices()[vertex] - contact.point;
-        let is_near = |vertex: usize| offset(vertex).length() <= NEAR_M;
-        let all: f64 = exact.iter().map(|u| u.length_squared()).sum();
-        let near: f64 =
-            exact.iter().enumerate().filter(|(v, _)| is_near(*v)).map(|(_, u)| u.length_squared()).sum();
-        let Some(at) = at_vertex(mesh, contact.vertex) else { continue };
-        let normal = mesh.normal(at);
-        arcs.solve(mesh, at, f64::MAX);
-        for (vertex, arc_m) in arcs.iter() {
-            let vertex = vertex as usize;
-            let weight = FULL / all + if is_near(vertex) { 1.0 / near } else { 0.0 };
-            let away = away(offset(vertex), normal);
-            let ring = (arc_m / radius_m * RINGS) as usize;
-            if rings.len() <= ring {
-                rings.resize(ring + 1, Ring::default());
-            }
-            let sums = &mut rings[ring];
-            sums.weight += weight;
-            sums.arc += weight * arc_m;
-            sums.normal -= weight * exact[vertex].dot(normal);
-            // (T |r| - u.r/|r|)^2 = |r|^2 (T - u.r/|r|^2)^2
-            sums.tangential_weight += weight * away.length_squared();
-            sums.tangential += weight * exact[vertex].dot(away);
-        }
-    }
-    let sites = sites.len() as f64;
-    rings
-        .iter()
-        .filter(|ring| ring.weight > 0.0)
-        .map(|ring| ShapePoint {
-            arc_m: ring.arc / ring.weight,
-            normal: ring.normal / ring.weight,
-            tangential: (ring.tangential_weight > 0.0).then(|| ring.tangential / ring.tangential_weight),
-            weight: ring.weight / sites,
-            tangential_weight: ring.tangential_weight / sites,
-        })
-        .collect()
-}
-
-/// The direction the model calls away: of unit length, shorter behind a thin lobe (MODEL section 4).
-fn away(offset: DVec3, normal: DVec3) -> DVec3 {
-    let in_plane = offset - normal * offset.dot(normal);
-    let scale = in_plane.length().max(0.2 * offset.length());
-    if scale > 0.0 { in_plane / scale } else { DVec3::ZERO }
 }
 
 /// Factors for all vertices, and how well each site is predicted from the others.
