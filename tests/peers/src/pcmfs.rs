@@ -6,15 +6,18 @@
 //! centres ([`collocation`]), spheres are laid out only within a zone of influence around the tool, and nothing moves
 //! at its rim and beyond. The zone's equations are solved for the tool's displacement, to which the answer is proportional.
 //!
-//! Ours, where they leave it open or used something simpler:
-//! - the contact is a disc, not one point: displacement is given along its normal at all spheres under it. The force is the sum over
+//! Ours, where they leave it open or where theirs does not carry over from one tool point on a smooth surface:
+//! - the contact is a disc: displacement is given along its normal at all spheres under it. The force is the sum over
 //!   its surface vertices of normal traction times vertex area (published: the entry of one point);
-//! - polynomials of second order instead of first, since first order cannot represent a change of strain;
+//! - polynomials of second order, since those of first order cannot represent a change of strain;
+//! - least squares, with equilibrium on the surface too, see [`collocation`]: without it the answers here are useless;
 //! - spacing h is the mean edge of the surface, but not less than the contact radius; the zone's radius is 6 h. Centres: surface
 //!   vertices, the contact's first, each at least 0.6 h from those before it; then points of a cubic lattice inside the
 //!   body, as far from them. Radius of the spheres: 2.5 h, or the first of 3, 3.5 and 4 h with which
 //!   the functions exist at every centre. If none does, or the answer is not finite, the contact has no answer: zero force, and
 //!   the disc alone moves.
+//!
+//! The force is the weak side of collocation: the pressure under a disc's edge has no bound, and is sampled at few points.
 
 mod collocation;
 mod shape;
@@ -133,7 +136,7 @@ impl Pcmfs {
         let mut spheres = Spheres { centres, radius_m: 0.0 };
         let u = RADII.iter().find_map(|radius| {
             spheres.radius_m = radius * self.spacing_m;
-            solve(&spheres, &conditions, self.lame)
+            solve(&spheres, &conditions, self.spacing_m, self.lame)
         })?;
         if !u.iter().all(|u| u.is_finite()) {
             return None;

@@ -1,11 +1,15 @@
-//! One condition at every sphere's centre, and the displacements that meet them all.
+//! Conditions at the spheres' centres, and the displacements that meet them best.
 //!
 //! S. De, J. Kim, Y.-J. Lim and M. A. Srinivasan (2005): `u(x) = sum_J H_J(x) u_J` is put into the equations themselves, point by
 //! point, without integrals: equilibrium inside, `(lambda + mu) grad div u + mu laplace u = 0`; the given traction
 //! `lambda div u n + mu (grad u + grad u^T) n` on the free surface; the given displacement where the body is held.
+//!
+//! With one condition for each centre the matrix is square, as published, and on scattered centres of a curved surface the
+//! answer oscillates (on the test bodies it was wrong by a factor of ten and more). So equilibrium is asked for on the surface too, and
+//! the conditions are met in the sense of least squares: a field that can meet them all still does.
 
-use faer::Mat;
 use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
 use glam::{DMat3, DVec3};
 
 use super::shape::{Function, PAIRS, Spheres};
@@ -57,53 +61,89 @@ impl Lame {
     }
 }
 
-/// Displacements of all spheres (the u_J, not the field at their centres); nothing where too few spheres meet.
-///
-/// Rows are scaled to the size of displacements: equilibrium by R^2/mu, tractions by R/mu.
-pub(super) fn solve(spheres: &Spheres, conditions: &[Condition], lame: Lame) -> Option<Vec<DVec3>> {
-    let size = 3 * spheres.centres.len();
-    let mut matrix = Mat::<f64>::zeros(size, size);
-    let mut right = Mat::<f64>::zeros(size, 1);
-    let scale = spheres.radius_m;
-    for (row, (condition, &centre)) in conditions.iter().zip(&spheres.centres).enumerate() {
-        for function in spheres.at(centre)? {
-            let block = match *condition {
-                Condition::Inside => lame.equilibrium(&function) * (scale * scale / lame.mu_pa),
-                Condition::Moved(_) => DMat3::from_diagonal(DVec3::splat(function.value)),
-                Condition::Loaded { normal, .. } => lame.traction(&function, normal) * (scale / lame.mu_pa),
-                Condition::Pressed { normal, disc, .. } => {
-                    let traction = lame.traction(&function, normal) * (scale / lame.mu_pa);
-                    pressed(disc, |direction| traction.transpose() * direction, disc * function.value)
-                }
-            };
-            for i in 0..3 {
+/// Weight of given displacements against the other conditions, once all are scaled to displacements.
+const GIVEN: f64 = 20.0;
+
+/// Normal equations, filled row by row: a row touches few spheres.
+struct LeastSquares {
+    matrix: Mat<f64>,
+    right: Mat<f64>,
+}
+
+impl LeastSquares {
+    fn new(size: usize) -> Self {
+        Self { matrix: Mat::zeros(size, size), right: Mat::zeros(size, 1) }
+    }
+
+    /// Three conditions: for each function what it contributes (columns: its sphere's displacement), and what is known.
+    fn add(&mut self, blocks: &[(usize, DMat3)], known: DVec3) {
+        for &(column, right) in blocks {
+            // The lower triangle is enough.
+            for &(row, left) in blocks.iter().filter(|(row, _)| *row >= column) {
+                let product = left.transpose() * right;
                 for j in 0..3 {
-                    matrix[(3 * row + i, 3 * function.sphere + j)] = block.col(j)[i];
+                    for i in 0..3 {
+                        self.matrix[(3 * row + i, 3 * column + j)] += product.col(j)[i];
+                    }
                 }
             }
-        }
-        let known = match *condition {
-            Condition::Inside => DVec3::ZERO,
-            Condition::Moved(displacement) => displacement,
-            Condition::Loaded { traction_pa, .. } => traction_pa * (scale / lame.mu_pa),
-            Condition::Pressed { along_m, .. } => DVec3::X * along_m,
-        };
-        for i in 0..3 {
-            right[(3 * row + i, 0)] = known[i];
+            let product = right.transpose() * known;
+            for i in 0..3 {
+                self.right[(3 * column + i, 0)] += product[i];
+            }
         }
     }
-    let found = matrix.partial_piv_lu().solve(&right);
-    Some(
-        (0..spheres.centres.len())
-            .map(|row| DVec3::from_array([0, 1, 2].map(|i| found[(3 * row + i, 0)])))
-            .collect(),
-    )
+}
+
+/// Displacements of all spheres (the u_J, not the field at their centres); nothing where too few spheres meet or the
+/// conditions do not hold the body.
+///
+/// Conditions are scaled to displacements with the centres' spacing h: equilibrium by h^2/mu, tractions by h/mu.
+pub(super) fn solve(
+    spheres: &Spheres,
+    conditions: &[Condition],
+    spacing_m: f64,
+    lame: Lame,
+) -> Option<Vec<DVec3>> {
+    let count = spheres.centres.len();
+    let mut squares = LeastSquares::new(3 * count);
+    let per_traction = spacing_m / lame.mu_pa;
+    for (condition, &centre) in conditions.iter().zip(&spheres.centres) {
+        let functions = spheres.at(centre)?;
+        let blocks = |one: &dyn Fn(&Function) -> DMat3| -> Vec<(usize, DMat3)> {
+            functions.iter().map(|function| (function.sphere, one(function))).collect()
+        };
+        match *condition {
+            Condition::Inside => {}
+            Condition::Moved(displacement) => {
+                let given = blocks(&|one| DMat3::from_diagonal(DVec3::splat(GIVEN * one.value)));
+                squares.add(&given, displacement * GIVEN);
+            }
+            Condition::Loaded { normal, traction_pa } => {
+                let loaded = blocks(&|one| lame.traction(one, normal) * per_traction);
+                squares.add(&loaded, traction_pa * per_traction);
+            }
+            Condition::Pressed { normal, disc, along_m } => {
+                let pressed = blocks(&|one| {
+                    pressed(disc, lame.traction(one, normal) * per_traction, disc * (GIVEN * one.value))
+                });
+                squares.add(&pressed, DVec3::X * (GIVEN * along_m));
+            }
+        }
+        if !matches!(condition, Condition::Moved(_)) {
+            let per_force = spacing_m * per_traction;
+            squares.add(&blocks(&|one| lame.equilibrium(one) * per_force), DVec3::ZERO);
+        }
+    }
+    let found = squares.matrix.llt(Side::Lower).ok()?.solve(&squares.right);
+    Some((0..count).map(|row| DVec3::from_array([0, 1, 2].map(|i| found[(3 * row + i, 0)]))).collect())
 }
 
 /// Rows: displacement along the disc's normal, tractions along two directions across it.
-fn pressed(disc: DVec3, traction_along: impl Fn(DVec3) -> DVec3, displacement: DVec3) -> DMat3 {
+fn pressed(disc: DVec3, traction: DMat3, displacement: DVec3) -> DMat3 {
     let (first, second) = disc.any_orthonormal_pair();
-    DMat3::from_cols(displacement, traction_along(first), traction_along(second)).transpose()
+    let along = |direction: DVec3| traction.transpose() * direction;
+    DMat3::from_cols(displacement, along(first), along(second)).transpose()
 }
 
 #[cfg(test)]
@@ -146,9 +186,9 @@ mod tests {
             }
         };
         let conditions: Vec<Condition> = spheres.centres.iter().map(condition).collect();
-        let displacements = solve(&spheres, &conditions, lame).unwrap();
+        let displacements = solve(&spheres, &conditions, pitch, lame).unwrap();
         for (at, u) in spheres.centres.iter().zip(displacements) {
-            assert!(u.distance(strain * *at) < 1e-9 * far, "{at} {u}");
+            assert!(u.distance(strain * *at) < 1e-7 * far, "{at} {u}");
         }
     }
 
@@ -174,7 +214,7 @@ mod tests {
                 }
             })
             .collect();
-        let found = solve(&spheres, &conditions, lame).unwrap();
+        let found = solve(&spheres, &conditions, pitch, lame).unwrap();
         assert!(spheres.centres.iter().zip(found).all(|(&at, u)| u.distance(even(at)) < 1e-9));
     }
 }
