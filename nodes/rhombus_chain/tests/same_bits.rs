@@ -2,9 +2,14 @@
 #![allow(clippy::expect_used, clippy::panic, reason = "a test whose case cannot be set up fails")]
 
 mod chains;
+mod common;
 
 use chains::TISSUE;
-use rhombus_chain::{ChainParameters, ContactLaw, ContactShape, Formulation, SurfaceParameters};
+use common::{Random, body, bumpy, tissue};
+use rhombus_chain::{
+    Body, ChainParameters, ContactLaw, ContactShape, Formulation, Interaction, StiffnessMap,
+    SurfaceParameters,
+};
 
 /// FNV-1a over the bits of each number.
 struct Fingerprint(u64);
@@ -49,4 +54,46 @@ fn laws_and_fields_have_the_same_bits_in_debug_and_release() {
         }
     }
     assert_eq!(fingerprint.0, 0x6c6d_ead4_a15a_097a, "{:#018x}", fingerprint.0);
+}
+
+/// Slides, presses, grasps, pulls and releases on a body; what a recording of it replays to.
+fn session(body: &Body) -> u64 {
+    let tissue = tissue();
+    let mut random = Random(41);
+    let mut fingerprint = Fingerprint(0xcbf2_9ce4_8422_2325);
+    for _ in 0..20 {
+        let at = random.surface_point(body.mesh());
+        let (normal, mut interaction) = (body.mesh().normal(at), Interaction::new());
+        let along = normal.any_orthonormal_vector();
+        for k in 0..200_i32 {
+            let share = f64::from(k) / 200.0;
+            let way = along * (0.03 * share) - normal * (0.006 * libm::sin(9.0 * share));
+            let probe = body.mesh().position(at) + normal * 0.005 + way;
+            let step = interaction
+                .step(body, &tissue, i64::from(k) * 3_000_000, probe, (90..130).contains(&k))
+                .expect("an answer");
+            let local_n = step.local_law.force_n(tissue.law(), probe + along * 1e-4);
+            for vector in [step.force_n, step.normal, step.proxy, local_n] {
+                vector.to_array().into_iter().for_each(|value| fingerprint.add(value));
+            }
+            fingerprint.add(step.depth_m);
+            fingerprint.add(step.stiffness_n_per_m);
+        }
+    }
+    fingerprint.0
+}
+
+#[test]
+fn a_session_on_a_body_has_the_same_bits_in_debug_and_release() {
+    let found = session(&body(bumpy(3)));
+    assert_eq!(found, 0x1725_c83b_dd2a_5fa0, "{found:#018x}");
+}
+
+#[test]
+fn a_session_on_a_regionally_stiff_body_has_the_same_bits_in_debug_and_release() {
+    let body = body(bumpy(3));
+    let factors = body.mesh().vertices().iter().map(|p| 2.0 + libm::sin(40.0 * p.x) * libm::cos(60.0 * p.y));
+    let map = StiffnessMap::new(factors.collect(), body.mesh()).expect("accepted factors");
+    let found = session(&body.with_stiffness(map).expect("its own map"));
+    assert_eq!(found, 0x1f90_52e4_4690_b13e, "{found:#018x}");
 }
