@@ -233,13 +233,16 @@ impl Calibrate {
             found.held_out.len()
         );
         if with_map && !found.held_out.is_empty() {
-            let constant = sites::fit(&reference, self.chains, false)?;
-            let force =
-                |errors: &[super::errors::SiteError]| median(errors.iter().map(|e| e.force_rel).collect());
+            let constant_n_per_m = found.fitted.law()?.rest_stiffness_n_per_m();
+            let constant = reference.held_out().into_iter().flat_map(|site| {
+                let contacts = reference.sites[site].contacts.iter();
+                contacts.map(|contact| (constant_n_per_m / contact.stiffness_n_per_m - 1.0).abs())
+            });
+            let mapped = found.held_out.iter().map(|error| error.force_rel);
             source += &format!(
                 "; one stiffness for the whole body leaves {} of their force (median), the map {}",
-                percent(force(&constant.held_out)),
-                percent(force(&found.held_out))
+                percent(median(constant.collect())),
+                percent(median(mapped.collect()))
             );
         }
         Ok(Found { fitted: found.fitted, source, body: Some(body_lines), map: found.map })
