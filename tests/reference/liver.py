@@ -146,9 +146,9 @@ def around(body: Surface, vertex: int, distance: float, number: int) -> list[int
 
 
 def run_inclusion(body: Surface, count: int) -> None:
-    """A stiff ball under the first site, felt there and at 8, 16 and 28 mm around it."""
+    """A stiff ball under the first site, felt there and at 8 and 20 mm around it."""
     top = int(sites.choose(body, 1)[0])
-    chosen = [top] + [v for mm in (8, 16, 28) for v in around(body, top, mm * 1e-3, 4)]
+    chosen = [top] + [v for mm in (8, 20) for v in around(body, top, mm * 1e-3, 4)]
     centre = body.vertices[top] - INCLUSION_DEPTH * body.vertex_normals()[top]
     ball = icosphere(centre, INCLUSION_RADIUS)
 
