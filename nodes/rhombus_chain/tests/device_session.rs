@@ -8,7 +8,7 @@ use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use rhombus_chain::{
     Answer, Body, ChainParameters, ContactLaw, DeviceSession, HandPose, Interaction, Mode, Pose, Rejection,
-    Tissue, chain_for_hand,
+    StiffnessMap, Tissue, chain_for_hand,
 };
 
 const MS: i64 = 1_000_000;
@@ -17,6 +17,14 @@ const TOP_M: f64 = 0.05;
 
 fn a_block() -> Body {
     body(block(DVec3::new(0.2, 0.2, 2.0 * TOP_M), 4))
+}
+
+/// The same, twice as stiff in the middle and stiffer to one side.
+fn a_stiffer_block() -> Body {
+    let body = a_block();
+    let factors = body.mesh().vertices().iter().map(|p| 2.0 + 8.0 * p.x + 4.0 * p.y).collect();
+    let map = StiffnessMap::new(factors, body.mesh()).unwrap();
+    body.with_stiffness(map).unwrap()
 }
 
 fn hand_at(ms: i64, position: DVec3, body_from_frame: Pose) -> HandPose {
@@ -75,8 +83,9 @@ proptest! {
         slip in [-0.1..0.1f64, -0.1..0.1, -0.1..0.1],
         body_from_frame in arbitrary_pose(),
         grasp: bool,
+        mapped: bool,
     ) {
-        let (body, tissue) = (a_block(), tissue());
+        let (body, tissue) = (if mapped { a_stiffer_block() } else { a_block() }, tissue());
         let mut device = DeviceSession::new(scale);
         let hand = body_from_frame.inverse().transform_point(pressed(&tissue, 0.004)) / scale;
         device.command_grasp(grasp);
@@ -90,6 +99,13 @@ proptest! {
         prop_assert_eq!(answer.step.mode, if grasp { Mode::Grasp } else { Mode::Contact });
         let by_law = force_by_law(&tissue, &answer, scale, moved);
         prop_assert!(by_law.abs_diff_eq(answer.force_in_frame_n, 1e-9), "{by_law} {}", answer.force_in_frame_n);
+        if !grasp {
+            // The side is flat and its stiffness linear, so the law is right beside its pose too.
+            let aside = moved + body_from_frame.inverse().rotate(DVec3::new(-0.003, 0.002, -0.001)) / scale;
+            let by_law = force_by_law(&tissue, &answer, scale, aside);
+            let there = device.answer(&body, &tissue, &hand_at(3, aside, body_from_frame)).unwrap();
+            prop_assert!(by_law.abs_diff_eq(there.force_in_frame_n, 1e-9), "{by_law} {}", there.force_in_frame_n);
+        }
     }
 }
 
