@@ -1,20 +1,29 @@
 //! `rhombus report`: what the model is worth, measured here and now, beside its peers.
 
+mod beyond;
+mod clockwork;
 mod closed_loop;
+mod depth;
 mod elapsed;
 mod figure;
 mod half_space;
 mod html;
+mod lab;
+mod liver;
 mod markdown;
 mod origin;
 mod page;
 mod plot;
+mod profiles;
 mod progress;
+mod run_time;
 mod section;
 mod stability_map;
 mod staging;
+mod subject;
 mod table;
 mod ticks;
+mod truth;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -23,6 +32,7 @@ use std::time::Instant;
 
 use clap::{Args, ValueHint};
 
+use lab::Lab;
 use origin::Origin;
 use page::{Chapter, Page};
 use progress::Progress;
@@ -33,7 +43,17 @@ use rhombus_cli::output;
 
 /// Every section, in the order of the page.
 const SECTIONS: &[Section] =
-    &[half_space::SECTION, elapsed::SECTION, stability_map::SECTION, closed_loop::SECTION];
+    &[
+    half_space::SECTION,
+    liver::SECTION,
+    run_time::SECTION,
+    depth::SECTION,
+    profiles::SECTION,
+    beyond::SECTION,
+    elapsed::SECTION,
+    stability_map::SECTION,
+    closed_loop::SECTION,
+];
 
 /// Measure error, run time and stability here, beside other models: HTML, Markdown, SVG and CSV
 ///
@@ -77,7 +97,8 @@ impl Report {
             |section: &&Section| self.only.is_empty() || self.only.iter().any(|own| own.name == section.name);
         let sections: Vec<&'static Section> = SECTIONS.iter().filter(asked).collect();
         let progress = Progress::new(sections.len());
-        let context = Context { mode, reference: &self.reference, progress: &progress };
+        let lab = Lab::new(self.reference.clone());
+        let context = Context { mode, reference: &self.reference, lab: &lab, progress: &progress };
         let origin = Origin::new(mode);
         let chapters = sections.into_iter().map(|section| compute(section, &context)).collect();
         let page = Page { origin, chapters };

@@ -165,10 +165,7 @@ fn draw_legend(area: &Area, shown: &[&Series]) -> Result<(), DrawingError> {
 }
 
 /// The mark of a series at a place.
-fn mark<'b, C: Clone + 'static>(
-    place: C,
-    series: &Series,
-) -> Option<DynElement<'static, SVGBackend<'b>, C>> {
+fn mark<'b, C: Clone + 'static>(place: C, series: &Series) -> Option<DynElement<'static, SVGBackend<'b>, C>> {
     const RADIUS: u32 = 4 * FINE;
     let style = colour(series).stroke_width(LINE);
     Some(match series.marker {

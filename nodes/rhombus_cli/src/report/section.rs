@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::figure::Figure;
+use super::lab::Lab;
 use super::progress::Progress;
 use super::table::Table;
 
@@ -21,6 +22,8 @@ pub(crate) struct Context<'a> {
     pub(crate) mode: Mode,
     /// The folder of reference solutions: `results/*.npz`, `tets/*.npz`.
     pub(crate) reference: &'a Path,
+    /// References and calibrations, each made once for all sections.
+    pub(crate) lab: &'a Lab,
     /// Where a section says what it does, so that a long run is seen to live.
     pub(crate) progress: &'a Progress,
 }

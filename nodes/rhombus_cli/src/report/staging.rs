@@ -40,13 +40,17 @@ impl Staging {
             bail!("{shown} has no name of its own; accepted: a folder to be made, such as report");
         };
         let parent = parent_of(target);
-        let folder = tempfile::Builder::new()
+        // Watched first: from its first moment on, the folder goes with the process.
+        let folder = Arc::new(Mutex::new(None));
+        watch_signals(Arc::clone(&folder))?;
+        let mut slot = lock(&folder);
+        let made = tempfile::Builder::new()
             .prefix(&format!(".{name}.unfinished-"))
             .tempdir_in(parent)
             .with_context(|| format!("no folder can be made in {}", parent.display()))?;
-        let path = folder.path().to_owned();
-        let folder = Arc::new(Mutex::new(Some(folder)));
-        watch_signals(Arc::clone(&folder))?;
+        let path = made.path().to_owned();
+        *slot = Some(made);
+        drop(slot);
         Ok(Self { target: target.to_owned(), replaces, folder, path })
     }
 
@@ -115,8 +119,10 @@ fn watch_signals(folder: Arc<Mutex<Option<tempfile::TempDir>>>) -> Result<()> {
         if let Some(signal) = signals.forever().next() {
             // Held until the end of the process: publishing does not begin while the folder is removed.
             let mut folder = lock(&folder);
-            drop(folder.take());
-            eprintln!("\nrhombus report: interrupted; nothing is left behind");
+            if let Some(unfinished) = folder.take() {
+                drop(unfinished);
+                eprintln!("\nrhombus report: interrupted; nothing is left behind");
+            }
             std::process::exit(128 + signal);
         }
     })?;

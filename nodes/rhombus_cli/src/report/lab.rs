@@ -1,0 +1,130 @@
+//! The liver's reference solutions and what is calibrated on them, each read or fitted once for a whole report.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::time::Instant;
+
+use anyhow::{Context as _, Result, ensure};
+use rhombus_chain::{Body, StiffnessMap, SurfaceMesh, Tissue};
+use rhombus_cli::calibrate::sites;
+use rhombus_cli::reference::Reference;
+
+use super::progress::Progress;
+
+/// Parallel chains that are calibrated: 1 to this many.
+pub(crate) const MOST_CHAINS: usize = 5;
+
+/// References and calibrations.
+pub(crate) struct Lab {
+    folder: PathBuf,
+    references: RefCell<BTreeMap<&'static str, Rc<Reference>>>,
+    fits: RefCell<BTreeMap<(&'static str, usize), Rc<Calibrated>>>,
+}
+
+/// Chains, and the regional stiffness map that goes with them, from the sites of a reference that are not held out.
+pub(crate) struct Calibrated {
+    /// Law, shape and probe.
+    pub(crate) tissue: Tissue,
+    /// The mesh of the reference with constant stiffness ...
+    pub(crate) constant: Body,
+    /// ... and with the map.
+    pub(crate) mapped: Body,
+    /// How long the calibration took, s.
+    pub(crate) seconds: f64,
+    /// Median near-field error at the sites that were used, as a share: by it the number of chains may be chosen.
+    pub(crate) used_near: f64,
+}
+
+impl Lab {
+    /// For a folder with `results/*.npz` and `tets/*.npz`.
+    pub(crate) fn new(folder: PathBuf) -> Self {
+        Self { folder, references: RefCell::default(), fits: RefCell::default() }
+    }
+
+    /// A reference by the stem of its file.
+    ///
+    /// # Errors
+    /// There is no such file, with the command that makes it, or it is not accepted.
+    pub(crate) fn reference(&self, name: &'static str) -> Result<Rc<Reference>> {
+        if let Some(known) = self.references.borrow().get(name) {
+            return Ok(Rc::clone(known));
+        }
+        let path = self.folder.join("results").join(format!("{name}.npz"));
+        ensure!(
+            path.is_file(),
+            "{} is missing; make it with: python tests/reference/liver.py {}",
+            path.display(),
+            command_for(name)
+        );
+        let reference = Rc::new(Reference::read(&path)?);
+        self.references.borrow_mut().insert(name, Rc::clone(&reference));
+        Ok(reference)
+    }
+
+    /// The file of tetrahedra inside the liver of so many vertices.
+    ///
+    /// # Errors
+    /// There is no such file, with the command that makes it.
+    pub(crate) fn tetrahedra(&self, vertices: usize) -> Result<PathBuf> {
+        let path = self.folder.join("tets").join(format!("liver_{vertices}.npz"));
+        ensure!(
+            path.is_file(),
+            "{} is missing; make it with: python tests/reference/liver.py tets",
+            path.display()
+        );
+        Ok(path)
+    }
+
+    /// So many chains, calibrated on a reference.
+    ///
+    /// # Errors
+    /// The reference is missing or cannot be fitted.
+    pub(crate) fn calibrated(
+        &self,
+        name: &'static str,
+        chains: usize,
+        progress: &Progress,
+    ) -> Result<Rc<Calibrated>> {
+        if let Some(known) = self.fits.borrow().get(&(name, chains)) {
+            return Ok(Rc::clone(known));
+        }
+        let reference = self.reference(name)?;
+        progress.step(&format!("calibrating {chains} chains on {name}"));
+        let start = Instant::now();
+        let fitted = sites::fit(&reference, chains, true)
+            .with_context(|| format!("{name}: {chains} chains cannot be calibrated"))?;
+        let seconds = start.elapsed().as_secs_f64();
+        let mesh = SurfaceMesh::new(reference.vertices.clone(), reference.faces.clone())?;
+        let factors = fitted.map.context("the calibration has no map")?;
+        let map = StiffnessMap::new(factors, &mesh)?;
+        let near = fitted.used.iter().map(|site| site.near_rel_l2).collect();
+        let calibrated = Rc::new(Calibrated {
+            tissue: fitted.fitted.tissue()?,
+            constant: Body::new(mesh.clone()),
+            mapped: Body::new(mesh).with_stiffness(map)?,
+            seconds,
+            used_near: rhombus_cli::calibrate::errors::median(near),
+        });
+        self.fits.borrow_mut().insert((name, chains), Rc::clone(&calibrated));
+        Ok(calibrated)
+    }
+}
+
+impl Calibrated {
+    /// The body with the map or without.
+    pub(crate) fn body(&self, mapped: bool) -> &Body {
+        if mapped { &self.mapped } else { &self.constant }
+    }
+}
+
+/// The part of tests/reference/liver.py that makes a file.
+fn command_for(name: &str) -> &str {
+    match name {
+        "liver_nu" => "nu",
+        "liver_inclusion" => "inclusion",
+        "liver_two" => "two",
+        _ => "sites",
+    }
+}

@@ -1,0 +1,104 @@
+//! Error against run time: the model and every peer on the same job, in the same run.
+
+mod cases;
+mod exhibits;
+
+use super::section::{Ask, Context, Mode, Section, SectionOutput, Verdict};
+use cases::{Case, Entry};
+
+pub(crate) const SECTION: Section = Section {
+    name: "run_time",
+    title: "Error against run time",
+    asks: &[
+        Ask { what: FASTER[0].0, asked: "at least 50 x faster" },
+        Ask { what: FASTER[1].0, asked: "at least 50 x faster" },
+        Ask { what: "less force error than condensed FEM of 1st order, same mesh (3116)", asked: "less" },
+        Ask {
+            what: "less near-field error than condensed FEM of 1st order, same mesh (3116)",
+            asked: "less",
+        },
+    ],
+    run,
+};
+
+/// Demand, and the peer it names.
+const FASTER: [(&str, &str); 2] = [
+    (
+        "force and surface beside condensed FEM, 1st order, full product (3116)",
+        "condensed FEM, 1st order, full product",
+    ),
+    (
+        "force and surface beside condensed FEM, 2nd order, full product (3116)",
+        "condensed FEM, 2nd order, full product",
+    ),
+];
+/// The body's own size.
+const VERTICES: usize = 3116;
+const REFERENCE: &str = "liver_r5";
+
+fn run(context: &Context) -> anyhow::Result<SectionOutput> {
+    let (model_sizes, peer_sizes): (&[usize], &[usize]) = match context.mode {
+        Mode::Quick => (&[500, 1000, VERTICES, 50_000], &[500, 1000]),
+        Mode::Full => {
+            (&[500, 1000, VERTICES, 10_000, 50_000, 200_000], &[500, 1000, VERTICES, 10_000, 200_000])
+        }
+    };
+    let entries = cases::measure(context, model_sizes, peer_sizes)?;
+    let text = vec![
+        "One query is what a session does in one period of a moving contact: the force on the hand and the displacement of every \
+         surface vertex, where the contact has moved by 3 mm since the query before (0.2 m/s at 60 Hz). For the chains that is the step \
+         of the interaction and the update of the surface field; for a peer, the change of contact and the product. The row \"contact \
+         stays\" changes the depth alone, which is where precomputed systems are at their best. Times are medians of single calls \
+         after warm-up, with quartiles; all methods of one size are measured one after the other in this run."
+            .to_owned(),
+        "Errors are those at the held-out sites of the 5 mm disc against quadratic finite elements on meshes refined towards the disc. On \
+         other meshes than the reference's, the reference is interpolated at the closest point of its surface; peers touch the \
+         vertex nearest to the site, so part of their error on coarse meshes is the mesh's. A peer that steps through time is \
+         timed for one step and judged at rest."
+            .to_owned(),
+    ];
+    Ok(SectionOutput { text, verdicts: verdicts(context.mode, &entries), exhibits: exhibits::all(&entries) })
+}
+
+fn verdicts(mode: Mode, entries: &[Entry]) -> Vec<Verdict> {
+    if mode == Mode::Quick {
+        return SECTION.asks.iter().map(|ask| Verdict::not_judged(ask.what, "only in --full")).collect();
+    }
+    let cases = || entries.iter().filter_map(|entry| entry.outcome.as_ref().ok().map(|case| (entry, case)));
+    let of_size = |vertices: usize| cases().filter(move |(entry, _)| entry.vertices == vertices);
+    let peer = |name: &str| of_size(VERTICES).find(|(entry, _)| entry.method == name).map(|(_, case)| case);
+    // The chains with the least near-field error at the sites used, with the map.
+    let model = of_size(VERTICES).find(|(entry, _)| entry.chosen).map(|(_, case)| case);
+    let missing = |what| Verdict::not_judged(what, "a method could not be measured, see the table");
+    let mut verdicts: Vec<Verdict> = FASTER
+        .iter()
+        .map(|(what, name)| match (model, peer(name)) {
+            (Some(model), Some(peer)) => faster(what, model, peer),
+            _ => missing(what),
+        })
+        .collect();
+    let parts: [fn(&Case) -> f64; 2] =
+        [|case| case.score.median(|d| d.force), |case| case.score.median(|d| d.near)];
+    for (ask, part) in SECTION.asks[2..].iter().zip(parts) {
+        verdicts.push(match (model, peer(FASTER[0].1)) {
+            (Some(model), Some(peer)) => {
+                let (own, other) = (part(model), part(peer));
+                let measured = format!("{:.2} % beside {:.2} % (medians)", 100.0 * own, 100.0 * other);
+                Verdict::new(ask.what, measured, own < other)
+            }
+            _ => missing(ask.what),
+        });
+    }
+    verdicts
+}
+
+/// The model with a moving contact beside the peer's product alone, which leaves the change of contact out of the peer's time.
+fn faster(what: &'static str, model: &Case, peer: &Case) -> Verdict {
+    let (own, moved, stayed) = (model.moved.median_us(), peer.moved.median_us(), peer.stayed.median_us());
+    let measured = format!(
+        "{:.0} x: {own:.1} us beside {stayed:.0} us for the product alone; {:.0} x with the change of contact",
+        stayed / own,
+        moved / own
+    );
+    Verdict::new(what, measured, stayed >= 50.0 * own)
+}

@@ -1,0 +1,204 @@
+//! Every method on every mesh: set up, timed, judged.
+
+use std::time::Instant;
+
+use anyhow::Result;
+use glam::DVec3;
+use rhombus_benches::walk_on_surface;
+use rhombus_chain::{Body, StiffnessMap, SurfaceMesh};
+use rhombus_peers::{Job, Material, PeerKind, SetupError, TetMesh};
+use scene::{BodyKind, generate};
+
+use super::REFERENCE;
+use crate::report::clockwork::{FEWEST, Times, times};
+use crate::report::lab::{Calibrated, MOST_CHAINS};
+use crate::report::section::Context;
+use crate::report::subject::{Model, Other, Place, Subject};
+use crate::report::truth::{self, Score, TruthSite};
+
+/// A method on a mesh, and what became of it.
+pub(super) struct Entry {
+    /// The peer's name, or `rhombus chains`.
+    pub(super) method: &'static str,
+    /// The publication a peer follows.
+    pub(super) citation: &'static str,
+    /// Parallel chains, and whether the stiffness is mapped; `None` for a peer.
+    pub(super) chains: Option<(usize, bool)>,
+    /// The calibration that a user would choose, by the sites used: it stands in the verdicts.
+    pub(super) chosen: bool,
+    /// Vertices of the surface.
+    pub(super) vertices: usize,
+    /// Its numbers, or why it could not be set up.
+    pub(super) outcome: Result<Case, String>,
+}
+
+/// Numbers of a method on a mesh.
+pub(super) struct Case {
+    /// Force and field, contact moves between the calls.
+    pub(super) moved: Times,
+    /// Force and field, the depth alone changes.
+    pub(super) stayed: Times,
+    /// Force alone, contact moves; the model can, a peer has no such call.
+    pub(super) force: Option<Times>,
+    /// At the held-out sites.
+    pub(super) score: Score,
+    /// From mesh and parameters to the first query, s.
+    pub(super) setup_s: f64,
+    /// What it keeps, bytes.
+    pub(super) bytes: u64,
+}
+
+/// The model's name in tables.
+pub(super) const MODEL: &str = "rhombus chains";
+/// How deep sites are pressed when methods are timed, m; a share of it more and less.
+const DEPTH_M: f64 = 0.005;
+/// Way of the contact between two queries, m.
+const STRIDE_M: f64 = 0.003;
+/// Repeats of the model; peers get the fewest that make a median.
+const MODEL_REPEATS: usize = 300;
+
+/// A mesh with everything that is asked on it.
+struct Stage {
+    body: Body,
+    fixed: Vec<bool>,
+    sites: Vec<TruthSite>,
+    walk: Vec<Place>,
+}
+
+pub(super) fn measure(context: &Context, model_sizes: &[usize], peer_sizes: &[usize]) -> Result<Vec<Entry>> {
+    let calibrated = (1..=MOST_CHAINS)
+        .map(|chains| context.lab.calibrated(REFERENCE, chains, context.progress))
+        .collect::<Result<Vec<_>>>()?;
+    let near = |index: &usize| calibrated[*index].used_near;
+    let chosen = (0..MOST_CHAINS).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or(0);
+    let mut sizes: Vec<usize> = model_sizes.iter().chain(peer_sizes).copied().collect();
+    sizes.sort_unstable();
+    sizes.dedup();
+    let mut entries = Vec::new();
+    for vertices in sizes {
+        context.progress.step(&format!("liver of {vertices} vertices"));
+        let stage = Stage::new(context, &calibrated[0].constant, vertices)?;
+        if model_sizes.contains(&vertices) {
+            for (index, calibrated) in calibrated.iter().enumerate() {
+                for mapped in [false, true] {
+                    entries.push(Entry {
+                        method: MODEL,
+                        citation: "",
+                        chains: Some((index + 1, mapped)),
+                        chosen: index == chosen && mapped,
+                        vertices,
+                        outcome: Ok(model(&stage, calibrated, mapped)?),
+                    });
+                }
+            }
+        }
+        if peer_sizes.contains(&vertices) {
+            let volume =
+                context.lab.tetrahedra(vertices).ok().map(|path| TetMesh::read(&path)).transpose()?;
+            for kind in rhombus_peers::all() {
+                context.progress.step(&format!("{vertices} vertices: {}", kind.name));
+                entries.push(Entry {
+                    method: kind.name,
+                    citation: kind.citation,
+                    chains: None,
+                    chosen: false,
+                    vertices,
+                    outcome: peer(&stage, kind, volume.as_ref()),
+                });
+            }
+        }
+    }
+    Ok(entries)
+}
+
+impl Stage {
+    fn new(context: &Context, surface: &Body, vertices: usize) -> Result<Self> {
+        let reference = context.lab.reference(REFERENCE)?;
+        let shape = generate::body(BodyKind::Liver, vertices);
+        let body = Body::new(SurfaceMesh::new(shape.vertices, shape.triangles)?);
+        let mesh = body.mesh();
+        // The flat underside, by the rule of the reference solutions.
+        let fixed: Vec<bool> = mesh.vertex_normals().iter().map(|normal| normal.z < -0.7).collect();
+        let sites = truth::on(mesh, &reference, surface, &reference.held_out());
+        let walk = walk_on_surface(mesh, 2 * MODEL_REPEATS, STRIDE_M)
+            .into_iter()
+            .filter_map(|(point, normal)| {
+                let (at, _) = body.index().closest(mesh, point, f64::INFINITY)?;
+                let corners = mesh.triangles()[at.face as usize];
+                let apart = |corner: &u32| mesh.vertices()[*corner as usize].distance(point);
+                let vertex = corners.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+                (!fixed[vertex as usize]).then_some(Place { point, normal, vertex })
+            })
+            .collect();
+        Ok(Self { body, fixed, sites, walk })
+    }
+
+    /// Times and judges a subject that is set up.
+    fn case(&self, subject: &mut dyn Subject, repeats: usize, setup_s: f64) -> Case {
+        let place = |repeat: usize| &self.walk[repeat % self.walk.len()];
+        let depth = |repeat: usize| DEPTH_M * (1.0 - 0.01 * (repeat % 10) as f64);
+        let moved = times(repeats, |repeat| subject.moved(place(repeat), depth(repeat)));
+        let last = place(repeats.saturating_sub(1));
+        let stayed = times(repeats, |repeat| subject.stayed(last, depth(repeat)));
+        let mut field = vec![DVec3::ZERO; self.body.mesh().vertices().len()];
+        let distances = self.sites.iter().map(|site| {
+            let place = Place { point: site.point, normal: site.normal, vertex: site.vertex };
+            let force_n = subject.settled(&place, DEPTH_M, &mut field);
+            (site.site, site.distance(DEPTH_M, force_n, &field))
+        });
+        let score = Score(distances.collect());
+        Case { moved, stayed, force: None, score, setup_s, bytes: subject.bytes() }
+    }
+}
+
+/// The chains on a mesh that they may not have been calibrated on: the map is carried over by closest points.
+fn model(stage: &Stage, calibrated: &Calibrated, mapped: bool) -> Result<Case> {
+    let start = Instant::now();
+    let mut body = Body::new(stage.body.mesh().clone());
+    if let (true, Some(map)) = (mapped, calibrated.mapped.stiffness()) {
+        let source = &calibrated.mapped;
+        let factor = |&vertex: &DVec3| {
+            source.index().closest(source.mesh(), vertex, f64::INFINITY).map_or(1.0, |(at, _)| map.at(&at))
+        };
+        let factors = body.mesh().vertices().iter().map(factor).collect();
+        let map = StiffnessMap::new(factors, body.mesh())?;
+        body = body.with_stiffness(map)?;
+    }
+    let mut model = Model::new(&body, &calibrated.tissue);
+    let setup_s = start.elapsed().as_secs_f64();
+    let mut case = stage.case(&mut model, MODEL_REPEATS, setup_s);
+    case.force =
+        Some(times(MODEL_REPEATS, |repeat| model.force(&stage.walk[repeat % stage.walk.len()], DEPTH_M)));
+    Ok(case)
+}
+
+fn peer(stage: &Stage, kind: &PeerKind, volume: Option<&TetMesh>) -> Result<Case, String> {
+    let job = Job {
+        surface: stage.body.mesh(),
+        volume,
+        fixed: volume.map_or(&stage.fixed, |volume| &volume.fixed),
+        material: Material { young_pa: 10e3, poisson: 0.45 },
+        contact_radius_m: DEPTH_M,
+        memory_limit_bytes: memory_limit_bytes(),
+    };
+    let start = Instant::now();
+    let peer = (kind.setup)(&job).map_err(|error| match error {
+        SetupError::DoesNotFit { needed_bytes, limit_bytes } => {
+            let [needed, limit] = [needed_bytes, limit_bytes].map(|bytes| bytes as f64 / 1e9);
+            format!("does not fit: {needed:.1} GB (free: {limit:.1} GB)")
+        }
+        SetupError::NoVolume => "needs tetrahedra, of which there are none of this size".to_owned(),
+        other => other.to_string(),
+    })?;
+    let setup_s = start.elapsed().as_secs_f64();
+    let mut other = Other::new(peer, stage.body.mesh().vertices().len());
+    Ok(stage.case(&mut other, FEWEST, setup_s))
+}
+
+/// Nine tenths of the memory that is free now.
+fn memory_limit_bytes() -> u64 {
+    let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
+    let kilobytes = line.and_then(|line| line.trim().split(' ').next()?.parse::<u64>().ok());
+    kilobytes.map_or(4 << 30, |kilobytes| kilobytes * 1024 / 10 * 9)
+}

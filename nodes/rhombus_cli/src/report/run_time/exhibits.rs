@@ -1,0 +1,246 @@
+//! Figures and tables of error against run time.
+
+use super::VERTICES;
+use super::cases::{Case, Entry, MODEL};
+use crate::report::figure::{Axis, Figure, Line, Marker, Point, Series};
+use crate::report::lab::MOST_CHAINS;
+use crate::report::liver::stiffness;
+use crate::report::section::Exhibit;
+use crate::report::table::{Cell, Table};
+use crate::report::truth::Distance;
+
+/// An error and how it is called.
+struct Quantity {
+    name: &'static str,
+    title: &'static str,
+    axis: &'static str,
+    part: fn(&Distance) -> f64,
+}
+
+const QUANTITIES: [Quantity; 4] = [
+    Quantity {
+        name: "run_time_near",
+        title: "Surface within 30 mm of the contact",
+        axis: "relative L2 error within 30 mm [%]",
+        part: |distance| distance.near,
+    },
+    Quantity {
+        name: "run_time_full",
+        title: "Whole surface",
+        axis: "relative L2 error of the whole surface [%]",
+        part: |distance| distance.full,
+    },
+    Quantity {
+        name: "run_time_worst",
+        title: "Worst vertex",
+        axis: "error of the worst vertex [% of depth]",
+        part: |distance| distance.worst,
+    },
+    Quantity {
+        name: "run_time_force",
+        title: "Force",
+        axis: "relative error of the force [%]",
+        part: |distance| distance.force,
+    },
+];
+
+/// All of them, the table of everything last.
+pub(super) fn all(entries: &[Entry]) -> Vec<Exhibit> {
+    let errors = QUANTITIES.iter().map(|quantity| error_against_time(quantity, entries));
+    errors.chain([time_against_size(entries), citations(entries)]).collect()
+}
+
+fn measured(entries: &[Entry]) -> impl Iterator<Item = (&Entry, &Case)> {
+    entries.iter().filter_map(|entry| entry.outcome.as_ref().ok().map(|case| (entry, case)))
+}
+
+fn head(entry: &Entry) -> [Cell; 4] {
+    let (chains, kind) = match entry.chains {
+        Some((chains, mapped)) => (chains.into(), stiffness(mapped).into()),
+        None => (Cell::Empty, Cell::Empty),
+    };
+    [entry.method.into(), entry.vertices.into(), chains, kind]
+}
+
+const HEAD: [(&str, &str); 4] = [("method", ""), ("vertices", ""), ("chains", ""), ("stiffness", "")];
+
+fn error_against_time(quantity: &Quantity, entries: &[Entry]) -> Exhibit {
+    let tail = [
+        ("time", "us"),
+        ("lower quartile", "us"),
+        ("upper quartile", "us"),
+        ("error, median", "%"),
+        ("error, worst site", "%"),
+    ];
+    let mut table = Table::new(HEAD.into_iter().chain(tail));
+    let mut raw = Table::new(HEAD.into_iter().chain([("site", ""), ("error", "%")]));
+    for (entry, case) in measured(entries) {
+        let (median, worst) = (case.score.median(quantity.part), case.score.worst(quantity.part));
+        let time = case
+            .moved
+            .spread()
+            .map_or([Cell::Empty, Cell::Empty, Cell::Empty], |s| [s.median, s.q1, s.q3].map(Cell::from));
+        table.push(
+            head(entry).into_iter().chain(time).chain([median, worst].map(|share| (100.0 * share).into())),
+        );
+        for (site, distance) in &case.score.0 {
+            let error = 100.0 * (quantity.part)(distance);
+            raw.push(head(entry).into_iter().chain([(*site).into(), error.into()]));
+        }
+    }
+    let point = |case: &Case| {
+        let spread = case.moved.spread();
+        Point {
+            x_spread: spread.map(|spread| (spread.q1, spread.q3)),
+            ..Point::new(case.moved.median_us(), 100.0 * case.score.median(quantity.part))
+        }
+    };
+    Exhibit {
+        name: quantity.name,
+        title: format!("{}: error against the time of one query", quantity.title),
+        caption: format!(
+            "Medians over the held-out sites, and over the repeats with bars from quartile to quartile; down and to the left is better. A \
+             curve of the chains runs from 1 to {MOST_CHAINS} chains on one mesh, full line with the stiffness map, dashed with constant \
+             stiffness; a curve of a peer runs over its meshes, coarse to fine. Contact moves between queries."
+        ),
+        figure: Some(Figure {
+            x: Axis::log("time of one query, force and surface, contact moves [us]"),
+            y: Axis::log(quantity.axis),
+            series: series(entries, point),
+        }),
+        table,
+        raw: Some(raw),
+    }
+}
+
+/// One series for the chains on each mesh, with and without map; one for each peer.
+fn series(entries: &[Entry], point: impl Fn(&Case) -> Point) -> Vec<Series> {
+    let mut all: Vec<Series> = Vec::new();
+    for (entry, case) in measured(entries) {
+        let name = match entry.chains {
+            Some((_, mapped)) => format!("chains, {} vertices, {}", entry.vertices, stiffness(mapped)),
+            None => entry.method.to_owned(),
+        };
+        if let Some(known) = all.iter_mut().find(|series| series.name == name) {
+            known.points.push(point(case));
+            continue;
+        }
+        let same_size = format!("chains, {} vertices, ", entry.vertices);
+        let colours = all.iter().map(|series| series.colour + 1).max().unwrap_or(0);
+        let colour = match entry.chains {
+            Some(_) => all
+                .iter()
+                .find(|series| series.name.starts_with(&same_size))
+                .map_or(colours, |series| series.colour),
+            None => colours,
+        };
+        const MARKERS: [Marker; 3] = [Marker::Square, Marker::Triangle, Marker::Cross];
+        let (line, marker) = match entry.chains {
+            Some((_, true)) => (Line::Solid, Marker::Circle),
+            Some((_, false)) => (Line::Dashed, Marker::Ring),
+            None => (Line::Dashed, MARKERS[all.len() % MARKERS.len()]),
+        };
+        all.push(Series { name, points: vec![point(case)], line, marker, colour });
+    }
+    // The chains last in drawing order would hide nothing, but they come first in the legend.
+    all.sort_by_key(|series| !series.name.starts_with("chains, "));
+    all
+}
+
+fn time_against_size(entries: &[Entry]) -> Exhibit {
+    let tail = [
+        ("contact moves", "us"),
+        ("contact stays", "us"),
+        ("force alone", "us"),
+        ("repeats", ""),
+        ("setup", "s"),
+        ("memory", "MB"),
+        ("remark", ""),
+    ];
+    let mut table = Table::new(HEAD.into_iter().chain(tail));
+    let mut raw = Table::new(HEAD.into_iter().chain([("what", ""), ("repeat", ""), ("time", "us")]));
+    for entry in entries {
+        let own = match &entry.outcome {
+            Ok(case) => [
+                case.moved.median_us().into(),
+                case.stayed.median_us().into(),
+                Cell::maybe(case.force.as_ref().map(|times| times.median_us())),
+                case.moved.0.len().into(),
+                case.setup_s.into(),
+                (case.bytes as f64 / 1e6).into(),
+                Cell::Empty,
+            ],
+            Err(why) => {
+                let empty = std::array::from_fn::<_, 6, _>(|_| Cell::Empty);
+                let [a, b, c, d, e, f] = empty;
+                [a, b, c, d, e, f, why.as_str().into()]
+            }
+        };
+        table.push(head(entry).into_iter().chain(own));
+    }
+    for (entry, case) in measured(entries) {
+        let kinds = [
+            ("contact moves", Some(&case.moved)),
+            ("contact stays", Some(&case.stayed)),
+            ("force alone", case.force.as_ref()),
+        ];
+        for (what, times) in kinds {
+            for (repeat, time) in times.iter().flat_map(|times| &times.0).enumerate() {
+                raw.push(head(entry).into_iter().chain([what.into(), repeat.into(), (*time).into()]));
+            }
+        }
+    }
+    let mut series: Vec<Series> = Vec::new();
+    let shown = measured(entries).filter(|(entry, _)| {
+        entry.chains.is_none_or(|(chains, mapped)| mapped && [1, 3, 5].contains(&chains))
+    });
+    for (entry, case) in shown {
+        let name = match entry.chains {
+            Some((chains, _)) => format!("{chains} chain{}, map", if chains == 1 { "" } else { "s" }),
+            None => entry.method.to_owned(),
+        };
+        let at = (entry.vertices as f64, case.moved.median_us());
+        match series.iter_mut().find(|series| series.name == name) {
+            Some(known) => known.points.push(Point::new(at.0, at.1)),
+            None => {
+                let marker = if entry.method == MODEL { Marker::Circle } else { Marker::Square };
+                series.push(Series::line(&name, series.len(), [at]).marked(marker));
+            }
+        }
+    }
+    Exhibit {
+        name: "run_time_size",
+        title: "Time, setup and memory against the size of the mesh".to_owned(),
+        caption: format!(
+            "Median time of one query, contact moves. Setup is from mesh and parameters to the first query; the chains' leaves their calibration \
+             out, which the section on the liver has. A method that needs more memory than nine tenths of what is free is in the \
+             table with what it needs. The body of the verdicts has {VERTICES} vertices."
+        ),
+        figure: Some(Figure {
+            x: Axis::log("vertices of the surface"),
+            y: Axis::log("time of one query, force and surface [us]"),
+            series,
+        }),
+        table,
+        raw: Some(raw),
+    }
+}
+
+fn citations(entries: &[Entry]) -> Exhibit {
+    let mut table = Table::new([("method", ""), ("publication", "")]);
+    let mut seen: Vec<&str> = Vec::new();
+    for entry in entries.iter().filter(|entry| entry.chains.is_none()) {
+        if !seen.contains(&entry.method) {
+            seen.push(entry.method);
+            table.push([entry.method.into(), entry.citation.into()]);
+        }
+    }
+    Exhibit {
+        name: "run_time_peers",
+        title: "The peers".to_owned(),
+        caption: "What each peer follows; all are implemented in tests/peers, each with a test on a case of known answer.".to_owned(),
+        figure: None,
+        table,
+        raw: None,
+    }
+}
