@@ -18,7 +18,8 @@ from skfem.models.elasticity import linear_elasticity
 import contact
 import elasticity
 import volume
-from surface import RIM_SET_BACK, Disc, SizeField, Surface, divide
+from divide import RIM_SET_BACK, SizeField, divide
+from surface import Disc, Surface
 from tables import percent, write_csv
 
 YOUNG, POISSON = 10e3, 0.45
