@@ -3,7 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use rhombus_chain::{ContactShape, Formulation};
+use glam::DVec3;
+use rhombus_chain::{ContactShape, Formulation, SurfacePoint};
 use scene::{Reader, Scene};
 
 fn config() -> PathBuf {
@@ -76,4 +77,18 @@ fn tissues_have_the_stiffness_their_comments_promise() {
 fn scenes_have_the_tissue_their_comments_name() {
     assert_eq!(read("liver.yaml").chains, read("tissues/liver.yaml").chains);
     assert_eq!(read("block.yaml").chains, read("tissues/muscle.yaml").chains);
+    assert_eq!(read("nodule.yaml").chains, read("liver.yaml").chains);
+}
+
+#[test]
+fn the_hidden_nodule_is_six_times_as_stiff_and_24_mm_wide() {
+    let body = read("nodule.yaml").load_body().expect("a body").body;
+    let map = body.stiffness().expect("a map");
+    assert_eq!(map.range(), (1.0, 6.0));
+    let centre = DVec3::new(-0.010, 0.023, 0.058);
+    for face in 0..body.mesh().triangles().len() as u32 {
+        let corner = SurfacePoint { face, barycentric: DVec3::X };
+        let (factor, away_m) = (map.at(&corner), body.mesh().position(corner).distance(centre));
+        assert_eq!(factor > 3.5, away_m < 0.012, "{factor} at {away_m} m");
+    }
 }
