@@ -83,7 +83,6 @@ impl Lem {
         let [low, high] = job.surface.extents();
         let across = (high - low).length() / pitch_m + 2.0;
         // Lines through the whole shadow, most with one element.
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive; saturates")]
         let lines = (across * across) as u64;
         job.reserve(lines * ELEMENT_BYTES + vertices * 128 + job.surface.memory_bytes() as u64)?;
         let area: f64 = job.surface.vertex_areas().iter().sum();
@@ -144,7 +143,6 @@ impl Lem {
     /// A flat square of elements of one length, touched in its middle.
     fn ideal_layer(&self, length_m: f64) -> Layer {
         let radius = self.contact_radius_m / self.pitch_m;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
         let half = radius.ceil() as u32 + IDEAL_MARGIN;
         let side = 2 * half + 1;
         let mut layer = Layer { area_m2: self.pitch_m * self.pitch_m, ..Layer::default() };
@@ -181,7 +179,6 @@ impl Lem {
         for (line, on_line) in pieces.iter().enumerate() {
             first[line] = layer.ends.len();
             let mut ends = Vec::with_capacity(on_line.len());
-            #[expect(clippy::cast_precision_loss, reason = "lattice numbers")]
             let cell = glam::DVec2::new((line % lattice.size[0]) as f64, (line / lattice.size[0]) as f64);
             let aside_m = cell.distance(site_cell) * self.pitch_m;
             for piece in on_line {
@@ -191,7 +188,6 @@ impl Lem {
                     && to.abs() <= reach;
                 let corners = self.surface.triangles()[piece.end_face as usize];
                 let held = corners.iter().all(|&vertex| self.fixed[vertex as usize]);
-                #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 elements fit")]
                 ends.push((layer.ends.len() as u32, to));
                 layer.ends.push(match (touched, held) {
                     (_, true) => End::Held,
@@ -214,15 +210,7 @@ impl Lem {
                             one.from_to_m[0] < two.from_to_m[1] && two.from_to_m[0] < one.from_to_m[1];
                         if overlap {
                             let (a, b) = (first[line] + a, first[other] + b);
-                            #[expect(
-                                clippy::cast_possible_truncation,
-                                reason = "far fewer than 2^32 elements fit"
-                            )]
                             layer.links[a].push(b as u32);
-                            #[expect(
-                                clippy::cast_possible_truncation,
-                                reason = "far fewer than 2^32 elements fit"
-                            )]
                             layer.links[b].push(a as u32);
                         }
                     }
@@ -280,16 +268,10 @@ fn follow(lattice: &Lattice, tops: &[Vec<(u32, f64)>], elongation_m: &[f64], at:
     let (mut sum, mut weights) = (0.0, 0.0);
     for (i, j) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
         let (x, y) = (corner.x + i, corner.y + j);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "whole; points outside find no line"
-        )]
         let inside = x >= 0.0 && y >= 0.0 && (x as usize) < lattice.size[0] && (y as usize) < lattice.size[1];
         if !inside {
             continue;
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, not negative")]
         let line = &tops[y as usize * lattice.size[0] + x as usize];
         let nearest = line.iter().min_by(|a, b| (a.1 - height).abs().total_cmp(&(b.1 - height).abs()));
         if let Some(&(element, _)) = nearest {

@@ -147,7 +147,6 @@ impl MassSpring {
 
     fn substeps(&self) -> u32 {
         // Saturates: a step far too small only takes long.
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive; saturates")]
         let steps = (PERIOD_S / self.step_s).ceil() as u32;
         steps.max(1)
     }
@@ -242,26 +241,26 @@ mod tests {
         (0..=count).map(|k| pitch * f64::from(k)).collect()
     }
 
-    fn block(limit: u64) -> (rhombus_chain::SurfaceMesh, TetMesh, impl Fn(&mut dyn FnMut(Job))) {
-        let (surface, volume) = TetMesh::block(&cells(4, 0.01), &cells(4, 0.01), &cells(3, 0.01));
-        let (s, v) = (surface.clone(), volume.clone());
-        let run = move |with: &mut dyn FnMut(Job)| {
-            with(Job {
-                surface: &s,
-                volume: Some(&v),
-                fixed: &v.fixed,
-                material: Material { young_pa: 10e3, poisson: 0.45 },
-                contact_radius_m: 0.011,
-                memory_limit_bytes: limit,
-            });
-        };
-        (surface, volume, run)
+    fn block() -> (rhombus_chain::SurfaceMesh, TetMesh) {
+        TetMesh::block(&cells(4, 0.01), &cells(4, 0.01), &cells(3, 0.01))
+    }
+
+    fn with_block(limit: u64, mut run: impl FnMut(Job)) {
+        let (surface, volume) = block();
+        run(Job {
+            surface: &surface,
+            volume: Some(&volume),
+            fixed: &volume.fixed,
+            material: Material { young_pa: 10e3, poisson: 0.45 },
+            contact_radius_m: 0.011,
+            memory_limit_bytes: limit,
+        });
     }
 
     /// Springs in series along z between a held node and the site of a disc; sideways nothing holds them, nothing pushes.
     #[test]
     fn springs_in_series_give_the_force_of_their_sum() {
-        let (surface, ..) = block(u64::MAX);
+        let (surface, _) = block();
         let stiffness = [30.0, 50.0, 20.0, 80.0];
         // Node 0 is the vertex that is touched; the others continue below it.
         let rest: Vec<DVec3> =
@@ -287,10 +286,9 @@ mod tests {
 
     #[test]
     fn energy_stays_bounded_below_the_largest_stable_step_and_explodes_above() {
-        let (.., run) = block(u64::MAX);
         let free_vibration = |share: f64, steps: u32| {
             let mut growth = 0.0;
-            run(&mut |job| {
+            with_block(u64::MAX, |job| {
                 let mut body = MassSpring::new(&job).unwrap();
                 body.damping_per_s = 0.0;
                 let dt = share * body.largest_stable_step_s();
@@ -316,11 +314,11 @@ mod tests {
 
     #[test]
     fn a_pressed_block_resists_and_is_softer_when_made_softer() {
-        let (surface, volume, run) = block(u64::MAX);
+        let (surface, volume) = block();
         let top = DVec3::new(0.02, 0.02, 0.03);
         let site = (0u32..).zip(surface.vertices()).find(|(_, at)| at.distance(top) < 1e-12).unwrap().0;
         let mut field = vec![DVec3::ZERO; volume.surface_vertices];
-        run(&mut |job| {
+        with_block(u64::MAX, |job| {
             let mut body = MassSpring::new(&job).unwrap();
             body.touch(site, DVec3::Z);
             let force = body.settle(0.0005, &mut field);
@@ -339,8 +337,7 @@ mod tests {
 
     #[test]
     fn too_little_memory_is_refused() {
-        let (.., run) = block(1000);
-        run(&mut |job| {
+        with_block(1000, |job| {
             assert!(matches!(MassSpring::new(&job), Err(SetupError::DoesNotFit { limit_bytes: 1000, .. })));
             let no_volume = Job { volume: None, ..job };
             assert!(matches!(MassSpring::new(&no_volume), Err(SetupError::NoVolume)));

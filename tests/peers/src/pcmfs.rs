@@ -69,7 +69,6 @@ impl Pcmfs {
         let vertices = job.surface.vertices().len();
         // A full zone: a ball of cells, and as many vertices on its disc; the matrix and its factors.
         let most = (4.0 / 3.0 * ZONE * ZONE * ZONE + ZONE * ZONE / (APART * APART)) * std::f64::consts::PI;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
         let matrices = 2 * 8 * (9.0 * most * most) as u64;
         job.reserve(matrices + (vertices * 64 + job.surface.memory_bytes()) as u64)?;
         Ok(Self {
@@ -101,7 +100,6 @@ impl Pcmfs {
         let under_disc = touched.iter().map(|&vertex| vertex as usize);
         for vertex in under_disc.chain(vertices) {
             let (at, own) = (self.surface.vertices()[vertex], self.surface.vertex_normals()[vertex]);
-            #[expect(clippy::cast_possible_truncation, reason = "vertex numbers are u32")]
             let pressed = touched.binary_search(&(vertex as u32)).is_ok();
             let condition = match (self.fixed[vertex], pressed) {
                 (true, _) => Condition::Moved(DVec3::ZERO),
@@ -112,7 +110,6 @@ impl Pcmfs {
         }
         let lattice = Lattice::around(&self.surface, site, normal, h);
         for (line, pieces) in lattice.pieces(&self.surface).iter().enumerate() {
-            #[expect(clippy::cast_precision_loss, reason = "lattice numbers")]
             let foot = lattice.origin
                 + (lattice.axes[0] * (line % lattice.size[0]) as f64
                     + lattice.axes[1] * (line / lattice.size[0]) as f64)

@@ -79,12 +79,10 @@ impl Laws {
     /// Matched on a half-space, see the module.
     fn matched(job: &Job, pitch_m: f64) -> Self {
         let radius_m = job.contact_radius_m.max(pitch_m / std::f64::consts::PI.sqrt());
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
         let half = ((job.contact_radius_m + MATCHED_FIELD_M) / pitch_m).ceil().max(3.0) as usize;
         let space = Elements::half_space(half, pitch_m);
         let mut links = Links::default();
         let top = |x: usize, y: usize| space.number([x, y, half]);
-        #[expect(clippy::cast_precision_loss, reason = "lattice numbers")]
         let aside = |x: usize, y: usize| (x as f64 - half as f64).hypot(y as f64 - half as f64) * pitch_m;
         let cells = || (0..=2 * half).flat_map(|y| (0..=2 * half).map(move |x| (x, y)));
         let touched = |&(x, y): &(usize, usize)| aside(x, y) <= job.contact_radius_m * (1.0 + 1e-9);

@@ -36,7 +36,6 @@ impl Lattice {
             .map(|&at| flat(at))
             .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
         let (first, last) = (low.floor(), high.ceil());
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, not negative")]
         let size = [(last.x - first.x) as usize + 1, (last.y - first.y) as usize + 1];
         let origin = through + (x * first.x + y * first.y) * pitch_m;
         Self { origin, axes: [x, y, along], pitch_m, size }
@@ -80,16 +79,10 @@ impl Lattice {
         let low = flat[0].min(flat[1]).min(flat[2]).ceil().max(DVec2::ZERO);
         let high = flat[0].max(flat[1]).max(flat[2]).floor();
         let area = (flat[1] - flat[0]).perp_dot(flat[2] - flat[0]);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "whole; negative saturates to an empty range"
-        )]
         let range =
             |low: f64, high: f64, size: usize| low as usize..((high + 1.0).max(0.0) as usize).min(size);
         for j in range(low.y, high.y, self.size[1]) {
             for i in range(low.x, high.x, self.size[0]) {
-                #[expect(clippy::cast_precision_loss, reason = "lattice numbers")]
                 let at = DVec2::new(i as f64, j as f64);
                 let mut height = 0.0;
                 let mut inside = true;

@@ -103,7 +103,6 @@ impl Layer {
     fn conjugate_gradients(&self, load: &[f64]) -> Vec<f64> {
         let free = |i: usize| self.ends[i] == End::Free;
         let count = load.len();
-        #[expect(clippy::cast_precision_loss, reason = "at most six links")]
         let diagonal = |i: usize| {
             self.area_m2 * self.stiffness_pa_per_m[i] + self.tension_n_per_m * self.links[i].len() as f64
         };

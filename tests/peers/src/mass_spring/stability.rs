@@ -35,8 +35,8 @@ pub(super) fn largest_stable_step_s(network: &Network) -> f64 {
         let moved = |(x, &free): (&DVec3, &f64)| if free > 0.0 { x.length_squared() / free } else { 0.0 };
         let inertia: f64 = x.iter().zip(inverse).map(moved).sum();
         let quotient = work / inertia;
-        // Also ends when nothing can move, where the quotient is not a number.
-        if !(quotient > largest * (1.0 + CONVERGED)) {
+        // Not a number when nothing can move.
+        if quotient.is_nan() || quotient <= largest * (1.0 + CONVERGED) {
             break;
         }
         largest = quotient;

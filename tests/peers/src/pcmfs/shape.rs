@@ -48,7 +48,7 @@ fn dot(a: &Terms, b: &Terms) -> f64 {
 fn factor(mut a: [Terms; TERMS], smallest: f64) -> Option<[Terms; TERMS]> {
     for column in 0..TERMS {
         let pivot = a[column][column] - a[column][..column].iter().map(|l| l * l).sum::<f64>();
-        if !(pivot > smallest) {
+        if pivot.is_nan() || pivot <= smallest {
             return None;
         }
         let root = pivot.sqrt();

@@ -42,7 +42,6 @@ impl Elements {
     pub(super) fn needed_bytes(surface: &SurfaceMesh, pitch_m: f64) -> u64 {
         let [low, high] = surface.extents();
         let across = ((high - low) / pitch_m).ceil() + 3.0;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive; saturates")]
         let cells = (across.x * across.y * across.z) as u64;
         // A cell, its links and its place in the queue; while building also the pieces of the lattice's lines.
         cells * 8
@@ -53,7 +52,6 @@ impl Elements {
     pub(super) fn inside(surface: &SurfaceMesh, fixed: &[bool], pitch_m: f64) -> Self {
         let [low, high] = surface.extents();
         let low = low - DVec3::splat(pitch_m);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
         let size = ((high - low) / pitch_m).to_array().map(|across| across.ceil() as usize + 2);
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let lattice = Lattice { origin: low, axes, pitch_m, size: [size[0], size[1]] };
@@ -61,7 +59,6 @@ impl Elements {
         for (line, pieces) in lattice.pieces(surface).iter().enumerate() {
             for piece in pieces {
                 let [from, to] = piece.from_to_m.map(|height| height / pitch_m);
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the box")]
                 for level in from.ceil() as usize..=to.floor() as usize {
                     cells[line + level * size[0] * size[1]] = Cell::Free;
                 }
@@ -91,7 +88,6 @@ impl Elements {
     /// The cell a point lies in; points beyond the box count to its rim.
     pub(super) fn nearest(&self, at: DVec3) -> usize {
         let place = ((at - self.low) / self.pitch_m).round().max(DVec3::ZERO);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, not negative")]
         let [x, y, z] = place.to_array().map(|k| k as usize);
         self.number([x.min(self.size[0] - 1), y.min(self.size[1] - 1), z.min(self.size[2] - 1)])
     }
@@ -107,7 +103,6 @@ impl Elements {
         let place = (at - self.low) / self.pitch_m;
         let corner = place.floor().max(DVec3::ZERO);
         let share = place - corner;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, not negative")]
         let corner = corner.to_array().map(|k| k as usize);
         let mut found = [(0u32, 0.0f32); 8];
         let mut sum = 0.0;
@@ -121,13 +116,7 @@ impl Elements {
             }
             let number = self.number(cell);
             if self.cells[number] != Cell::Outside && weight > 0.0 {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    reason = "what fits in memory here has fewer cells"
-                )]
-                {
-                    *entry = (number as u32, weight as f32);
-                }
+                *entry = (number as u32, weight as f32);
                 sum += entry.1;
             }
         }
@@ -151,10 +140,6 @@ impl Elements {
                     links.counts.push(0);
                 }
                 links.counts[away as usize] += 1;
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    reason = "what fits in memory here has fewer cells"
-                )]
                 queue.push(cell as u32);
             }
         };
