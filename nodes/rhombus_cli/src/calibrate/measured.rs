@@ -45,7 +45,7 @@ impl Measured {
             depth_m: self.contact_radius_m,
             range_m: 2.0 * deepest_m.max(self.contact_radius_m),
             ends: false,
-            closed_form: false,
+            exact: false,
         };
         let profile = self.shape_points()?;
         let members = match &profile {

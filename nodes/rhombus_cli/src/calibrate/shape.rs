@@ -54,12 +54,12 @@ pub(super) struct ShapeTask {
     pub(super) range_m: f64,
     /// Whether the shape may end before it has decayed, as on a body that is held somewhere.
     pub(super) ends: bool,
-    /// Whether the points are those of a formula and not measured.
-    pub(super) closed_form: bool,
+    /// Whether the points are those of a formula or of a solution, and not measured.
+    pub(super) exact: bool,
 }
 
 /// Angles of a fitted tangential motion, rad.
-const ANGLES: (f64, f64) = (0.02, 1.45);
+const ANGLES: (f64, f64) = (0.1, 1.3);
 
 /// Logarithms of the decay lengths that are looked for, as a share of the farthest point's `s`: 1/10000 to 10.
 const SHORT: f64 = -9.2;
@@ -106,8 +106,8 @@ impl ShapeTask {
         let defaults: Vec<f64> = unknowns.iter().map(|unknown| unknown.default).collect();
         let weight = points.iter().map(|point| point.weight + point.tangential_weight).sum::<f64>();
         let scatter = BEST_DATA * (weight / points.len() as f64).sqrt();
-        // What is wrong with a closed form is the model's, not scatter: all of it counts.
-        let known = if self.closed_form { f64::INFINITY } else { KNOWN };
+        // What is left of exact points is the model's error, not scatter: all of it counts.
+        let known = if self.exact { f64::INFINITY } else { KNOWN };
         let residuals = |x: &[f64]| self.residuals(points, &self.members(x, far_m));
         let found = determine(&self.starts(points), &defaults, scatter, known, residuals);
         let found = found.ok_or(FitError::NoSolution("surface's shape"))?;

@@ -63,7 +63,7 @@ pub fn fit(reference: &Reference, chains: usize, with_map: bool) -> Result<Fitte
         depth_m: radius_m,
         range_m: 0.5 * (high - low).min_element(),
         ends: true,
-        closed_form: false,
+        exact: true,
     };
     let rings = Rings::new(reference, &mesh, &sites, &contacts, radius_m);
     let shape = task.fit(&rings.points)?;
