@@ -80,7 +80,7 @@ pub fn work(
     Ok(work)
 }
 
-const HALVINGS: u32 = 20;
+const HALVINGS: u32 = 12;
 /// Share of the work so far that a step with a jump may be wrong by.
 const NEGLIGIBLE: f64 = 1e-7;
 
