@@ -260,6 +260,11 @@ fn bad_tables_are_refused_with_line_value_and_what_is_accepted() {
         assert!(said.contains(expected), "{table:?}\n{said}\nexpected {expected:?}");
         assert!(!folder.path("out.yaml").exists());
     }
+    let folder = Folder::new().with("data.csv", &with(force, rows));
+    for (option, value) in [("--probe-radius", "0"), ("--contact-radius", "nan"), ("--contact-radius", "5")] {
+        let said = folder.refusal(&["calibrate", "--table", "data.csv", "-o", "out.yaml", option, value]);
+        assert!(said.contains("data.csv: ") && said.contains("accepted: 1e-6 to 1, in m"), "{said}");
+    }
     let said = Folder::new().refusal(&["calibrate", "--table", "none.csv", "-o", "out.yaml"]);
     assert!(said.contains("none.csv: cannot be read"), "{said}");
 }

@@ -37,6 +37,13 @@ impl Measured {
                 "nothing was measured; accepted: depths and forces, a surface, or both".to_owned(),
             ));
         }
+        for (name, value) in
+            [("probe-radius", self.probe_radius_m), ("contact-radius", self.contact_radius_m)]
+        {
+            if !(1e-6..=1.0).contains(&value) {
+                return Err(FitError::Input { name, value, accepted: "1e-6 to 1, in m" });
+            }
+        }
         let mut notes = Vec::new();
         let deepest_m = self.force.iter().map(|point| point.depth_m.abs()).fold(0.0, f64::max);
         let mut task = ShapeTask {

@@ -1,7 +1,7 @@
 //! Chains and a regional stiffness map from reference solutions at many sites. Held-out sites are never looked at.
 //!
 //! **Surface.** One set of chains for the whole body, fitted to the averages of all sites over rings of arc length, where the
-//! neighbourhood of the contact counts most (see [`Rings`]). No number of chains leaves less than those averages do.
+//! neighbourhood of the contact counts most (`rings.rs`). No number of chains leaves less than those averages do.
 //!
 //! **Force.** The references are linear: so are the chains (no tangential springs). Their stiffness is the geometric mean of
 //! the sites'; the map's factors are the sites' stiffnesses over it, interpolated over the surface.
