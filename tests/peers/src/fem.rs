@@ -1,8 +1,11 @@
 //! Finite elements, condensed to the surface.
 //!
-//! Linear elasticity on the tetrahedra of the body, solved before the session: the compliance of the surface vertices,
-//! C = S K⁻¹ Sᵀ (K: stiffness of all nodes that can move, S: takes the surface vertices), is dense and small enough to
-//! multiply with in real time. Inner nodes, and of second order the middle nodes, are gone.
+//! Linear elasticity on the tetrahedra of the body, solved before the session: the compliance of the surface,
+//! C = S K⁻¹ Sᵀ (K: stiffness of all nodes that can move, S: takes those on the surface), is dense and, for a body of a
+//! few thousand vertices, small enough to multiply with. Inner nodes are gone.
+//!
+//! In second order a disc acts on the vertices and on the middles of edges it covers: with vertices alone a contact of a few nodes
+//! is a fifth too soft. So there are columns for both; the answer, like every peer's, has rows for the vertices alone.
 
 mod assembly;
 mod condensed;

@@ -60,6 +60,19 @@ impl<'a> Job<'a> {
         Ok(())
     }
 
+    /// Refuses a body that is free to move as a whole.
+    ///
+    /// # Errors
+    /// [`SetupError::Singular`] when fewer than three vertices are held.
+    pub fn check_held(&self) -> Result<(), SetupError> {
+        let held = self.fixed.iter().filter(|&&fixed| fixed).count();
+        if held < 3 {
+            let why = format!("{held} vertices are held");
+            return Err(SetupError::Singular { size: 3 * self.fixed.len(), why });
+        }
+        Ok(())
+    }
+
     /// The tetrahedra, for peers that need them.
     ///
     /// # Errors

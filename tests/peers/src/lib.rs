@@ -4,12 +4,14 @@
 //! ([`Peer`]): what force, and what displacement of every surface vertex. Each cites the publication it follows. Units are
 //! SI; depths are positive into the body, forces are on the hand along the outward normal.
 
+mod bem;
 mod compliance;
 mod contact;
 mod fem;
 mod job;
 mod lem;
 mod mass_spring;
+mod pcmfs;
 mod peer;
 mod product;
 mod s_chain;
@@ -37,5 +39,8 @@ pub fn all() -> &'static [PeerKind] {
         mass_spring::KIND,
         s_chain::KIND,
         lem::KIND,
+        bem::FULL,
+        bem::PATCH,
+        pcmfs::KIND,
     ]
 }

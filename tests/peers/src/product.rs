@@ -1,10 +1,10 @@
-//! The peers that have a dense surface compliance: as the full product, or with the columns of the touched vertices only.
+//! The peers that have a dense surface compliance: as the full product, or with the columns of the touched points only.
 
 use glam::DVec3;
 use rhombus_chain::SurfaceMesh;
 
 use crate::compliance::{Compliance, UnitContact};
-use crate::{Job, Peer, patch};
+use crate::{Job, Peer};
 
 /// What both have: the compliance, and the contact at unit depth.
 struct Touched {
@@ -22,7 +22,7 @@ impl Touched {
             name,
             surface: job.surface.clone(),
             contact_radius_m: job.contact_radius_m,
-            displacements: vec![0.0; compliance.size()],
+            displacements: vec![0.0; compliance.rows()],
             contact: UnitContact::default(),
             compliance,
         }
@@ -34,8 +34,7 @@ impl Touched {
     }
 
     fn touch(&mut self, vertex: u32, normal: DVec3) {
-        let touched = patch(&self.surface, vertex, normal, self.contact_radius_m);
-        self.contact = self.compliance.touch(&touched, normal);
+        self.contact = self.compliance.touch(&self.surface, vertex, normal, self.contact_radius_m);
     }
 }
 
@@ -48,7 +47,7 @@ pub(crate) struct FullProduct {
 impl FullProduct {
     /// `compliance` is laid out in rows.
     pub(crate) fn new(name: &'static str, job: &Job, compliance: Compliance) -> Self {
-        Self { forces: vec![0.0; compliance.size()], touched: Touched::new(name, job, compliance) }
+        Self { forces: vec![0.0; compliance.columns()], touched: Touched::new(name, job, compliance) }
     }
 }
 
@@ -68,9 +67,9 @@ impl Peer for FullProduct {
     fn query(&mut self, depth_m: f64, displacements: &mut [DVec3]) -> f64 {
         let Touched { contact, compliance, displacements: scratch, .. } = &mut self.touched;
         self.forces.fill(0.0);
-        for &(vertex, force) in &contact.forces {
+        for &(point, force) in &contact.forces {
             let force = (force * depth_m).as_vec3().to_array();
-            self.forces[3 * vertex as usize..][..3].copy_from_slice(&force);
+            self.forces[3 * point as usize..][..3].copy_from_slice(&force);
         }
         compliance.multiply(&self.forces, scratch, displacements);
         contact.stiffness_n_per_m * depth_m

@@ -6,6 +6,7 @@ use faer::sparse::Triplet;
 use glam::DVec3;
 
 use super::element::{EDGES, Order, stiffness};
+use crate::contact::ContactPoints;
 use crate::sparse_factor::Entry;
 use crate::{Job, Material, SetupError, TetMesh};
 
@@ -66,14 +67,20 @@ impl Nodes {
         self.place.get(node as usize).filter(|&&number| number != HELD).map(|&number| 3 * number as usize)
     }
 
-    /// The node in the middle of an edge, of second order.
-    pub(crate) fn middle(&self, a: u32, b: u32) -> Option<u32> {
-        self.middles.get(&edge(a, b)).copied()
+    /// The first unknown of the node in the middle of an edge, if it has one that can move.
+    fn middle(&self, a: u32, b: u32) -> Option<usize> {
+        self.middles.get(&edge(a, b)).and_then(|&node| self.unknown(node))
     }
 
-    /// What the numbering takes, about.
-    pub(crate) fn bytes(&self) -> u64 {
-        (size_of_val(&self.place[..]) + self.middles.len() * size_of::<([u32; 2], u32)>()) as u64
+    /// The points a disc can touch: all nodes on the surface that can move. And the first unknown of each.
+    pub(crate) fn contact_points(&self, job: &Job) -> (ContactPoints, Vec<usize>) {
+        let sides = job.surface.triangles().iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let free = sides.filter(|&[a, b]| a < b && self.middle(a, b).is_some());
+        let points = ContactPoints::new(job.fixed, free);
+        let vertices = points.vertices().iter().filter_map(|&vertex| self.unknown(vertex));
+        let middles = points.edges().filter_map(|[a, b]| self.middle(a, b));
+        let unknowns = vertices.chain(middles).collect();
+        (points, unknowns)
     }
 
     /// The lower triangle of the stiffness matrix, N/m; entries at the same place add up.
@@ -85,8 +92,7 @@ impl Nodes {
             stiffness(self.order, corners, material, &mut blocks);
             let mut unknowns: Vec<Option<usize>> = tet.iter().map(|&node| self.unknown(node)).collect();
             if self.order == Order::Second {
-                let middles = EDGES.map(|[a, b]| self.middle(tet[a], tet[b]));
-                unknowns.extend(middles.map(|middle| middle.and_then(|node| self.unknown(node))));
+                unknowns.extend(EDGES.map(|[a, b]| self.middle(tet[a], tet[b])));
             }
             let pairs = unknowns.iter().flat_map(|&row| unknowns.iter().map(move |&column| (row, column)));
             for (pair, block) in pairs.zip(&blocks) {
@@ -124,4 +130,86 @@ impl Nodes {
 
 fn edge(a: u32, b: u32) -> [u32; 2] {
     [a.min(b), a.max(b)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Nodes, Order};
+    use crate::{Job, Material, TetMesh};
+    use glam::{DMat3, DVec3};
+
+    const MATERIAL: Material = Material { young_pa: 3.0, poisson: 0.3 };
+
+    /// A block of distorted cells; stored energy, and the largest force on an inner node, for a displacement of all nodes.
+    fn energy_and_inner_force(order: Order, displacement: impl Fn(DVec3) -> DVec3) -> (f64, f64) {
+        let side = [-0.5, -0.2, 0.1, 0.5];
+        let (surface, mut volume) = TetMesh::block(&side, &side, &side);
+        for at in &mut volume.nodes[surface.vertices().len()..] {
+            *at += DVec3::new(0.03, -0.02, 0.04) * (2.0 * at.x + at.y) * (1.0 - at.z);
+        }
+        let free = vec![false; volume.surface_vertices];
+        let job = Job {
+            surface: &surface,
+            volume: Some(&volume),
+            fixed: &free,
+            material: MATERIAL,
+            contact_radius_m: 0.0,
+            memory_limit_bytes: u64::MAX,
+        };
+        let nodes = Nodes::new(&job, &volume, order);
+        let mut u = vec![0.0; nodes.size()];
+        let mut inner = vec![true; nodes.size()];
+        let ends = |[a, b]: [u32; 2]| (volume.nodes[a as usize] + volume.nodes[b as usize]) * 0.5;
+        let middles = nodes.middles.iter().map(|(&edge, &node)| (node, ends(edge)));
+        for (node, at) in (0u32..).zip(volume.nodes.iter().copied()).chain(middles) {
+            let first = nodes.unknown(node).unwrap();
+            u[first..first + 3].copy_from_slice(&displacement(at).to_array());
+            inner[first..first + 3].fill(at.abs().max_element() < 0.5 - 1e-9);
+        }
+        let mut force = vec![0.0; u.len()];
+        for entry in nodes.assemble(&volume, MATERIAL) {
+            let (row, column) = (entry.row as usize, entry.col as usize);
+            force[row] += entry.val * u[column];
+            if row != column {
+                force[column] += entry.val * u[row];
+            }
+        }
+        let energy = 0.5 * force.iter().zip(&u).map(|(force, u)| force * u).sum::<f64>();
+        let largest = force.iter().zip(inner).filter(|&(_, inner)| inner).map(|(force, _)| force.abs());
+        (energy, largest.fold(0.0, f64::max))
+    }
+
+    #[test]
+    fn a_uniform_strain_stores_its_energy_exactly_and_leaves_inner_nodes_at_rest() {
+        let strain = DMat3::from_cols_array(&[0.3, 0.1, -0.2, 0.1, -0.4, 0.05, -0.2, 0.05, 0.2]);
+        let (lambda, mu) = MATERIAL.lame_pa();
+        let trace = strain.x_axis.x + strain.y_axis.y + strain.z_axis.z;
+        let squares: f64 = strain.to_cols_array().iter().map(|entry| entry * entry).sum();
+        let exact = 0.5 * lambda * trace * trace + mu * squares;
+        for order in [Order::First, Order::Second] {
+            let (energy, force) = energy_and_inner_force(order, |at| strain * at + DVec3::new(1.0, 2.0, 3.0));
+            assert!(
+                (energy / exact - 1.0).abs() < 1e-12 && force < 1e-12,
+                "{order:?}: {energy} {exact} {force}"
+            );
+        }
+    }
+
+    #[test]
+    fn pure_bending_is_exact_in_second_order_and_too_stiff_in_first() {
+        // u = (x z, -nu y z, -(x² + nu (z² - y²)) / 2): curvature 1 about y, stress E z along x, energy E I / 2, I = 1/12.
+        let bend = |at: DVec3| {
+            let nu = MATERIAL.poisson;
+            DVec3::new(
+                at.x * at.z,
+                -nu * at.y * at.z,
+                -0.5 * (at.x * at.x + nu * (at.z * at.z - at.y * at.y)),
+            )
+        };
+        let exact = MATERIAL.young_pa / 24.0;
+        let (first, _) = energy_and_inner_force(Order::First, bend);
+        let (second, force) = energy_and_inner_force(Order::Second, bend);
+        assert!((second / exact - 1.0).abs() < 1e-12 && force < 1e-12, "{second} {exact} {force}");
+        assert!(first > 1.1 * exact, "{first} {exact}");
+    }
 }

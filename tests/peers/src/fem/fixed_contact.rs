@@ -7,8 +7,9 @@ use rhombus_chain::SurfaceMesh;
 use super::assembly::Nodes;
 use super::element::Order;
 use crate::compliance::press;
+use crate::contact::ContactPoints;
 use crate::sparse_factor::SparseFactor;
-use crate::{Job, Peer, SetupError, patch};
+use crate::{Job, Peer, SetupError};
 
 /// The answer of one contact.
 pub(super) fn fixed(name: &'static str, job: &Job, order: Order) -> Result<Box<dyn Peer>, SetupError> {
@@ -20,7 +21,10 @@ struct FixedContact {
     surface: SurfaceMesh,
     contact_radius_m: f64,
     factor: SparseFactor,
-    nodes: Nodes,
+    points: ContactPoints,
+    /// For each contact point, its first unknown; and how many unknowns there are.
+    unknowns: Vec<usize>,
+    size: usize,
     /// For each surface vertex, m per m of depth.
     unit: Vec<DVec3>,
     stiffness_n_per_m: f64,
@@ -29,6 +33,7 @@ struct FixedContact {
 impl FixedContact {
     fn new(name: &'static str, job: &Job, order: Order) -> Result<Self, SetupError> {
         job.check()?;
+        job.check_held()?;
         let volume = job.tetrahedra()?;
         let nodes = Nodes::new(job, volume, order);
         nodes.reserve(job, volume, 0)?;
@@ -36,12 +41,15 @@ impl FixedContact {
             SparseFactor::new(nodes.size(), &nodes.assemble(volume, job.material), |factor_bytes| {
                 nodes.reserve(job, volume, factor_bytes)
             })?;
+        let (points, unknowns) = nodes.contact_points(job);
         Ok(Self {
             name,
             surface: job.surface.clone(),
             contact_radius_m: job.contact_radius_m,
+            size: nodes.size(),
             factor,
-            nodes,
+            points,
+            unknowns,
             unit: vec![DVec3::ZERO; job.fixed.len()],
             stiffness_n_per_m: 0.0,
         })
@@ -55,15 +63,16 @@ impl Peer for FixedContact {
 
     fn bytes(&self) -> u64 {
         self.factor.bytes()
-            + self.nodes.bytes()
+            + self.points.bytes()
+            + size_of_val(&self.unknowns[..]) as u64
             + self.surface.memory_bytes() as u64
             + size_of_val(&self.unit[..]) as u64
     }
 
     fn touch(&mut self, vertex: u32, normal: DVec3) {
-        let touched = patch(&self.surface, vertex, normal, self.contact_radius_m);
-        let firsts: Vec<usize> = touched.into_iter().filter_map(|node| self.nodes.unknown(node)).collect();
-        let mut answers = Mat::<f64>::zeros(self.nodes.size(), firsts.len());
+        let touched = self.points.touched(&self.surface, vertex, normal, self.contact_radius_m);
+        let firsts: Vec<usize> = touched.into_iter().map(|point| self.unknowns[point as usize]).collect();
+        let mut answers = Mat::<f64>::zeros(self.size, firsts.len());
         for (column, &first) in firsts.iter().enumerate() {
             for axis in 0..3 {
                 answers[(first + axis, column)] = normal[axis];
@@ -75,9 +84,9 @@ impl Peer for FixedContact {
         };
         let pressed = press(firsts.len(), |i, j| answer(firsts[i], j).dot(normal));
         self.stiffness_n_per_m = pressed.iter().sum();
-        for (vertex, unit) in (0u32..).zip(&mut self.unit) {
-            let Some(first) = self.nodes.unknown(vertex) else { continue };
-            *unit = pressed.iter().enumerate().map(|(column, &force)| answer(first, column) * -force).sum();
+        for (&vertex, &first) in self.points.vertices().iter().zip(&self.unknowns) {
+            let columns = pressed.iter().enumerate();
+            self.unit[vertex as usize] = columns.map(|(column, &force)| answer(first, column) * -force).sum();
         }
     }
 
