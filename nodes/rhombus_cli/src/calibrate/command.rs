@@ -224,8 +224,7 @@ impl Calibrate {
         reference.check_mesh(body.mesh())?;
         let with_map = self.map.unwrap_or(reference.used().len() >= sites::FEWEST_FOR_MAP);
         check_free(&self.output, with_map, self.force)?;
-        let found =
-            sites::fit(&reference, self.chains, with_map).with_context(|| path.display().to_string())?;
+        let found = sites::fit(&reference, self.chains, with_map)?;
         let mut source = format!(
             "{} reference solutions of {}; {} more were held out to judge",
             found.used.len(),

@@ -90,7 +90,7 @@ pub fn fit(reference: &Reference, chains: usize, with_map: bool) -> Result<Fitte
     let map = match with_map {
         true => {
             let logarithms: Vec<f64> = logarithms.iter().map(|logarithm| logarithm - mean).collect();
-            let (map, leave_one_out) = regional(&mesh, &reference.fixed, radius_m, &contacts, &logarithms)?;
+            let (map, leave_one_out) = regional(reference, &mesh, radius_m, &contacts, &logarithms)?;
             fitted.reached.push(Reached {
                 what: format!("force at each of {} sites, predicted from the others (rms)", sites.len()),
                 relative: leave_one_out,
@@ -179,8 +179,8 @@ fn contact_radius(reference: &Reference, sites: &[usize]) -> Result<f64, FitErro
 
 /// Factors for all vertices, and how well each site is predicted from the others.
 fn regional(
+    reference: &Reference,
     mesh: &SurfaceMesh,
-    fixed: &[bool],
     radius_m: f64,
     contacts: &[ReferenceContact],
     logarithms: &[f64],
@@ -188,10 +188,11 @@ fn regional(
     if contacts.len() < FEWEST_SITES {
         let found = contacts.len();
         return Err(FitError::Data(format!(
-            "{found} sites are too few for a map; accepted: {FEWEST_SITES} or more"
+            "{}: {found} sites are too few for a map; accepted: {FEWEST_SITES} or more",
+            reference.file
         )));
     }
-    let place = |vertex: usize| Place::new(mesh, fixed, vertex, radius_m);
+    let place = |vertex: usize| Place::new(mesh, &reference.fixed, vertex, radius_m);
     let places: Vec<Place> = contacts.iter().map(|contact| place(contact.vertex as usize)).collect();
     let interpolation =
         Interpolation::new(&places, logarithms).ok_or(FitError::NoSolution("regional stiffness"))?;
