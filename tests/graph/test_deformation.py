@@ -2,6 +2,7 @@
 
 import math
 import struct
+import subprocess
 import zlib
 
 import pytest
@@ -314,3 +315,37 @@ def test_a_mesh_in_millimetres_is_used_with_a_warning(start):
     assert "body.scale" in program.log() and "80" in program.log()
     level, summary, _ = peer.new_status("/deformation: body")
     assert level == 1 and "body.scale" in summary
+
+
+def test_a_stiff_nodule_is_found_by_sliding_over_it(start, tmp_path):
+    nodule_x, radius_m, factor = 0.02, 0.012, 5.0
+    ball = [str(value) for value in (nodule_x, 0.0, graph.BLOCK_TOP_M, radius_m, factor)]
+    command = [graph.PROGRAMS / "rhombus", "mesh", "stiffness", "block", "--ball", *ball]
+    subprocess.run([*command, "--out", tmp_path / "nodule.csv"], check=True, capture_output=True)
+    program, peer = start({**SCENE, "body.stiffness_map": "nodule.csv"})
+    device = Device(peer)
+    depth_m = 0.003
+    tissue_n = graph.library_force_n(program.file, depth_m)
+    slide = {}
+    for mm in range(-30, 42, 2):
+        force, law, state = device.ask(pressed(depth_m, x=0.001 * mm, y=0.0))
+        slide[mm] = force_of(force)
+        assert state.force == approx(force_of(force)[2]) == approx(law.stiffness_factor * tissue_n)
+        g, f = vector(law.stiffness_gradient), force_of(force)
+        # Sideways it is the stored energy times the gradient; the law is nearly straight.
+        assert (f[0], f[1]) == approx([-c * 0.5 * depth_m * tissue_n for c in g[:2]], rel=0.05, abs=1e-9)
+    stiffest = max(slide, key=lambda mm: slide[mm][2])
+    assert abs(stiffest - 1000 * nodule_x) <= 4, slide
+    assert slide[stiffest][2] == approx(factor * tissue_n, rel=0.05)
+    assert slide[-20] == approx((0.0, 0.0, tissue_n)), "beside it the tissue is as the chains say"
+    assert slide[10][0] < -0.1 * tissue_n and slide[30][0] > 0.1 * tissue_n, "pushed off its edges"
+
+
+def test_a_stiffness_map_of_another_mesh_stops_the_start_with_file_and_count(tmp_path):
+    (tmp_path / "map.csv").write_text("factor\n1.0\n2.0\n")
+    program = Program(tmp_path, "deformation", {**SCENE, "body.stiffness_map": "map.csv"})
+    try:
+        assert program.process.wait(graph.TIMEOUT_S) != 0
+        assert "map.csv: body.stiffness_map: 2 stiffness factors; accepted: one for each of the mesh's" in program.log()
+    finally:
+        program.kill()
