@@ -1,5 +1,6 @@
 //! Error against elapsed time: what a long session adds to the answers of the model.
 
+mod peers;
 mod session;
 
 use super::figure::{Axis, Figure, Marker, Series};
@@ -28,6 +29,8 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
         context.progress.step(&format!("session of {steps} steps"));
         checkpoints.push(session.run(steps)?);
     }
+    let visits = if context.mode == Mode::Full { 400 } else { 30 };
+    let peers = peers::drift(context.reference, visits, |name| context.progress.step(name))?;
     let last = checkpoints.last().copied();
     let verdict = match last {
         Some(Checkpoint { steps, same_memory: Drift { compared, force_n, field_m, energy_j }, .. }) => {
@@ -54,7 +57,7 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
                 .to_owned(),
         ],
         verdicts: vec![verdict],
-        exhibits: vec![drift(&checkpoints)],
+        exhibits: vec![drift(&checkpoints), peers],
     })
 }
 

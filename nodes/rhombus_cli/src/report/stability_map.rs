@@ -1,6 +1,7 @@
 //! Stability map: random chains far beyond any tissue, at depths far beyond any body. Each is accepted and total, or refused
 //! with the right reason; a third outcome is counted.
 
+mod peers;
 mod random;
 
 use std::collections::BTreeMap;
@@ -13,6 +14,7 @@ use rhombus_chain::checks::{self, Extreme, Outcome};
 use super::figure::{Axis, Figure, Marker, Series};
 use super::section::{Ask, Context, Exhibit, Mode, Section, SectionOutput, Verdict};
 use super::table::{Cell, Table};
+pub(crate) use peers::Liver;
 pub(crate) use random::Random;
 
 pub(crate) const SECTION: Section = Section {
@@ -39,6 +41,9 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
     let tally =
         tally(blocks, |done| context.progress.step(&format!("{} of {} cases", done * BLOCK, blocks * BLOCK)));
     let cases = blocks * BLOCK;
+    context.progress.step("mass-spring");
+    let sizes: &[usize] = if context.mode == Mode::Full { &[500, 1000, 3116] } else { &[500] };
+    let mass_spring = peers::mass_spring(context.reference, sizes)?;
     Ok(SectionOutput {
         text: vec![
             "Ranges: k_n 1e-3 to 1e9 N/m, k_t/k_n 1e-6 to 1e6, theta 0.1 to 89.9 degrees (densest at both ends), q 0.02 to \
@@ -57,7 +62,7 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
             format!("{} of {cases} cases", tally.third),
             tally.third == 0,
         )],
-        exhibits: vec![outcomes(&tally), map(&tally)],
+        exhibits: vec![outcomes(&tally), map(&tally), mass_spring],
     })
 }
 

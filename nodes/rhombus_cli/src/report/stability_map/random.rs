@@ -28,11 +28,6 @@ impl Random {
         low + (high - low) * self.share()
     }
 
-    /// `10^low .. 10^high`, evenly in the exponent.
-    pub(crate) fn decades(&mut self, low: f64, high: f64) -> f64 {
-        libm::pow(10.0, self.between(low, high))
-    }
-
     /// One of `0 .. count`.
     pub(crate) fn below(&mut self, count: usize) -> usize {
         ((self.share() * count as f64) as usize).min(count.saturating_sub(1))
