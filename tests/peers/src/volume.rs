@@ -216,6 +216,7 @@ fn volume_m3(nodes: &[DVec3], tet: [u32; 4]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{TetMesh, volume_m3};
+    use std::path::Path;
 
     #[test]
     fn a_block_is_filled_once_and_its_surface_encloses_it() {
@@ -231,8 +232,21 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_file_is_named() {
-        let error = TetMesh::read(std::path::Path::new("nowhere.npz")).unwrap_err();
+    fn the_tetrahedra_of_the_liver_fill_it() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reference/tets");
+        let volume = TetMesh::read(&folder.join("liver_500.npz")).unwrap();
+        assert_eq!(volume.surface_vertices, 500);
+        let held = volume.fixed.iter().filter(|&&held| held).count();
+        assert!(held > 3 && held < 250, "{held}");
+        let total: f64 = volume.tets.iter().map(|&tet| volume_m3(&volume.nodes, tet)).sum();
+        assert!(total > 0.0005 && total < 0.002, "{total} m³");
+    }
+
+    #[test]
+    fn what_is_not_a_file_of_tetrahedra_is_named() {
+        let error = TetMesh::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml")).unwrap_err();
+        assert!(error.to_string().contains("Cargo.toml: "), "{error}");
+        let error = TetMesh::read(Path::new("nowhere.npz")).unwrap_err();
         assert!(error.to_string().starts_with("nowhere.npz: "), "{error}");
     }
 }

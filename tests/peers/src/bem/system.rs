@@ -21,8 +21,10 @@ pub(super) fn surface_compliance(job: &Job, layout: Layout) -> Result<Compliance
     let free = points.vertices();
     let vertices = job.fixed.len();
     let size = 3 * vertices;
-    let number = size_of::<f64>() as u64;
-    job.reserve(Compliance::bytes_for(free.len(), free.len()) + 2 * number * (size as u64).pow(2))?;
+    // H and G, and while solving one more of the right-hand sides.
+    let unknowns = 3 * free.len();
+    let solving = (size_of::<f64>() * size) as u64 * (2 * size + unknowns) as u64;
+    job.reserve(Compliance::bytes_for(free.len(), free.len()) + solving)?;
     let Boundary { mut h, mut g } = Boundary::new(job.surface, job.fixed, job.material.poisson);
     for (h, g) in h.chunks_exact_mut(size).zip(g.chunks_exact_mut(size)) {
         for vertex in (0..vertices).filter(|&vertex| job.fixed[vertex]) {
@@ -39,7 +41,6 @@ pub(super) fn surface_compliance(job: &Job, layout: Layout) -> Result<Compliance
             }
         }
     }
-    let unknowns = 3 * free.len();
     let par = Par::rayon(0);
     let mut matrix = MatMut::from_row_major_slice_mut(&mut h, size, size);
     let mut sides = MatMut::from_row_major_slice_mut(&mut g, size, size).subcols_mut(0, unknowns);
