@@ -38,6 +38,8 @@ if __name__ == "__main__":
     readme = HERE / "README.md"
     text = readme.read_text()
     for marker, name in (("validation", "validation.csv"), ("convergence", "liver_convergence.csv")):
+        if not (HERE / "results" / name).exists():
+            continue
         table = markdown(HERE / "results" / name)
         block = f"<!-- {marker} -->\n{table}\n<!-- /{marker} -->"
         text = re.sub(rf"<!-- {marker} -->.*<!-- /{marker} -->", lambda _: block, text, flags=re.S)

@@ -114,20 +114,22 @@ def punch(cells: float, set_back: float, poisson: float = POISSON) -> dict:
 
 
 def hertz(cells: float) -> dict:
-    """A rigid paraboloid of curvature 1/R to depth a^2 / R: the set of touched nodes grows until none outside it is
-    inside the sphere. F = 4/3 E* sqrt(R) depth^1.5, contact radius a."""
+    """A rigid paraboloid of curvature 1/R to depth a^2 / R: the contact radius is the smallest for which no node
+    outside it is inside the sphere. F = 4/3 E* sqrt(R) depth^1.5, contact radius a."""
     a, curvature = RADIUS, 1 / (6 * RADIUS)
     depth = a * a * curvature
     half = HalfSpace(cells, 1.3 * a, inside=1 / cells)
     rho = half.rho[half.nodes]
     into = depth - rho**2 * curvature / 2
-    touched = rho < 0.5 * a
-    while True:
+    few, many = 0.5 * a, 1.3 * a
+    while many - few > 0.02 * a / cells:
+        middle = (few + many) / 2
+        touched = rho <= middle
         answer = half.patches.press(half.nodes[touched], into[touched])
-        more = ~touched & (answer.displacement[half.nodes, 2] > -into + 1e-9 * depth)
-        if not more.any():
-            break
-        touched |= more
+        inside = ~touched & (answer.displacement[half.nodes, 2] > -into + 1e-6 * depth)
+        few, many = (middle, many) if inside.any() else (few, middle)
+    touched = rho <= many
+    answer = half.patches.press(half.nodes[touched], into[touched])
     exact = 4 / 3 * contact_modulus(POISSON) * np.sqrt(1 / curvature) * depth**1.5
     near = half.top[half.rho[half.top] < 20 * RADIUS]
     r = half.rho[near] / a
@@ -137,7 +139,7 @@ def hertz(cells: float) -> dict:
     half.patches.close()
     return half.size() | {
         "force": answer.stiffness[0] / exact - 1,
-        "contact_radius": rho[touched].max() / a - 1,
+        "contact_radius": many / a - 1,
         "normal_l2": relative_l2(answer.displacement[near, 2], profile),
     }
 
