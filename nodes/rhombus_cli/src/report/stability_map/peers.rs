@@ -120,8 +120,8 @@ fn is_stable(liver: &Liver, young_pa: f64, steps: u32) -> anyhow::Result<bool> {
     let most_j = 1e5 * stiffest * DEPTH_M * DEPTH_M;
     for _ in 0..(STEPS / steps as usize).max(2) {
         peer.query(DEPTH_M, &mut displacements);
-        // Not a number is not bounded either.
-        if !(peer.energy_j() <= most_j) {
+        let energy_j = peer.energy_j();
+        if !energy_j.is_finite() || energy_j > most_j {
             return Ok(false);
         }
     }
