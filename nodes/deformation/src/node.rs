@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use node_kit::{Change, FrameTree, Level, NodeKit, Status, TransformListener, convert, topics};
 use rhombus_chain::{Body, Tissue};
 use scene::Scene;
@@ -51,7 +51,10 @@ impl Deformation {
     fn new(kit: &mut NodeKit) -> Result<Deformation> {
         let scene = Scene::from_parameters(kit.parameters().clone())?;
         let tissue = scene.tissue()?;
-        let loaded = scene.load_body().context("body")?;
+        let loaded = scene.load_body().map_err(|error| match error.key {
+            Some(_) => anyhow::Error::new(error),
+            None => anyhow::Error::new(error).context("body.mesh"),
+        })?;
         for (name, value) in model::computed(tissue.law()) {
             kit.show_computed(name, value)?;
         }
