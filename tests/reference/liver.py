@@ -1,6 +1,6 @@
 """The reference solutions of the liver.
 
-    python liver.py sites|nu|inclusion|two|convergence|tets [--rhombus PROGRAM] [--sites 72]
+    python liver.py sites|nu|inclusion|two|convergence|tets [--rhombus PROGRAM] [--sites 48]
 
 Every solution is kept in `solutions/` (not committed), so that an interrupted run goes on where it was; the committed
 files in `results/` are written from them. `sites` writes liver_r5.npz and liver_r2.npz after every eighth site."""
@@ -249,7 +249,7 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("run", choices=[*RUNS, "tets"])
     parser.add_argument("--rhombus", default=str(HERE.parents[1] / "target" / "release" / "rhombus"))
-    parser.add_argument("--sites", type=int, default=72)
+    parser.add_argument("--sites", type=int, default=sites.COUNT)
     options = parser.parse_args()
     if options.run == "tets":
         for size in (500, 1000, 3116):

@@ -1,9 +1,9 @@
-"""Where the liver is pressed: a fixed rule, decided before any result was seen.
+"""Where the liver is pressed: a fixed rule that looks at no result.
 
 Candidates are the vertices at least 10 mm from the fixed base (the largest disc has 5 mm). They are taken in
 farthest-point order from the top: each new site is the candidate farthest from all before it, so that any first part of
-the list covers lobes, edges and tip evenly. Of the first 48 every sixth (the 5th, 11th, ... 47th: eight sites) is held out of
-every calibration; later sites only make the map denser.
+the list covers lobes, edges and tip evenly. Of the 48 sites every sixth (the 5th, 11th, ... 47th: eight sites) is held out
+of every calibration.
 """
 
 import numpy as np
@@ -11,10 +11,11 @@ import numpy as np
 from surface import Surface
 
 CLEARANCE_M = 0.010
-EVERY, FIRST, LAST = 6, 4, 47
+COUNT, EVERY, FIRST = 48, 6, 4
 
 
 def candidates(surface: Surface) -> np.ndarray:
+    """Vertices far enough from the base."""
     points = surface.vertices
     base = points[surface.base()]
     clearance = np.array([np.linalg.norm(base - p, axis=1).min() for p in points])
@@ -34,5 +35,4 @@ def choose(surface: Surface, count: int) -> np.ndarray:
 
 def held_out(count: int) -> np.ndarray:
     """(count,) bool."""
-    place = np.arange(count)
-    return (place % EVERY == FIRST) & (place <= LAST)
+    return np.arange(count) % EVERY == FIRST
