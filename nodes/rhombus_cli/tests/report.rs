@@ -1,4 +1,5 @@
 //! `rhombus report`: a folder that is whole or not there, and a page whose numbers are its files' numbers.
+#![expect(clippy::unwrap_used, reason = "a test may fail here")]
 
 mod common;
 

@@ -7,7 +7,7 @@ use super::lab::{Calibrated, MOST_CHAINS};
 use super::liver::judge;
 use super::section::{Context, Exhibit, Section, SectionOutput};
 use super::table::Table;
-use super::truth::{self, Distance};
+use super::truth::{self, Part};
 
 pub(crate) const SECTION: Section =
     Section { name: "depth", title: "Error against depth, contact size and Poisson's ratio", asks: &[], run };
@@ -17,7 +17,7 @@ const DEPTHS_MM: [f64; 8] = [0.01, 0.1, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0];
 /// Poisson's ratio of the calibrations.
 const CALIBRATED_POISSON: f64 = 0.45;
 /// Force and surface, and how they are called.
-const PARTS: [(&str, fn(&Distance) -> f64); 3] =
+const PARTS: [(&str, Part); 3] =
     [("force", |d| d.force), ("within 30 mm", |d| d.near), ("whole surface", |d| d.full)];
 
 fn run(context: &Context) -> anyhow::Result<SectionOutput> {
@@ -103,7 +103,7 @@ fn against_poisson(context: &Context) -> anyhow::Result<Exhibit> {
     ratios.dedup();
     let mut curves: [Vec<(f64, f64)>; 4] = std::array::from_fn(|_| Vec::new());
     for ratio in ratios {
-        let reference = if ratio == CALIBRATED_POISSON { &own } else { &others };
+        let reference = if (ratio - CALIBRATED_POISSON).abs() < 1e-9 { &own } else { &others };
         let wanted: Vec<usize> =
             reference.held_out().into_iter().filter(|&s| reference.sites[s].poisson == ratio).collect();
         let sites = truth::on(calibrated.mapped.mesh(), reference, &calibrated.mapped, &wanted);

@@ -3,12 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::page::{Chapter, Page};
+use super::page::{Chapter, Page, ROWS_IN_SIGHT};
 use super::section::{Exhibit, Outcome};
 use super::table::{Cell, Table};
-
-/// Rows of a table that are seen without unfolding it.
-const ROWS_IN_SIGHT: usize = 24;
 
 /// The page. `figures` holds the SVG of each exhibit by name.
 pub(crate) fn page(page: &Page, figures: &BTreeMap<&str, String>) -> String {
@@ -120,21 +117,28 @@ fn scalable(svg: &str) -> String {
 }
 
 fn table(table: &Table) -> String {
-    // A column is flush right when all its cells are numbers or empty.
-    let width = table.headings().count();
-    let numeric: Vec<bool> = (0..width)
-        .map(|column| table.rows().all(|row| row[column].is_number() || row[column] == Cell::Empty))
-        .collect();
-    let class = |column: usize| if numeric[column] { " class=\"n\"" } else { "" };
+    let class = |column: usize| {
+        let cells = || table.rows().map(|row| &row[column]);
+        // Long remarks may be broken; everything else stays on one line.
+        let is_long = |cell: &Cell| matches!(cell, Cell::Text(text) if text.len() > 48);
+        if cells().any(is_long) {
+            " class=\"t\""
+        } else if cells().all(|cell: &Cell| cell.is_number() || *cell == Cell::Empty) {
+            " class=\"n\""
+        } else {
+            ""
+        }
+    };
+    let classes: Vec<&str> = (0..table.headings().count()).map(class).collect();
     let mut text = "<div class=\"wide\"><table>\n<tr>".to_owned();
-    for (column, heading) in table.headings().enumerate() {
-        push(&mut text, format_args!("<th{}>{}</th>", class(column), escaped(&heading)));
+    for (class, heading) in classes.iter().zip(table.headings()) {
+        push(&mut text, format_args!("<th{class}>{}</th>", escaped(&heading)));
     }
     text.push_str("</tr>\n");
     for row in table.rows() {
         text.push_str("<tr>");
-        for (column, cell) in row.iter().enumerate() {
-            push(&mut text, format_args!("<td{}>{}</td>", class(column), escaped(&cell.shown())));
+        for (class, cell) in classes.iter().zip(row) {
+            push(&mut text, format_args!("<td{class}>{}</td>", escaped(&cell.shown())));
         }
         text.push_str("</tr>\n");
     }

@@ -5,7 +5,7 @@ use super::lab::{Calibrated, MOST_CHAINS};
 use super::section::{Ask, Context, Exhibit, Section, SectionOutput, Verdict};
 use super::subject::{Model, Place, Subject};
 use super::table::Table;
-use super::truth::{self, Distance, Score, TruthSite};
+use super::truth::{self, Distance, Part, Score, TruthSite};
 
 pub(crate) const SECTION: Section = Section {
     name: "liver",
@@ -189,7 +189,7 @@ fn exhibit(rows: &[Row]) -> Exhibit {
     }
     let mut series = Vec::new();
     for (colour, (_, radius)) in REFERENCES.into_iter().enumerate() {
-        let curve = |part: fn(&Distance) -> f64| -> Vec<(f64, f64)> {
+        let curve = |part: Part| -> Vec<(f64, f64)> {
             let own = rows.iter().filter(|row| row.radius == radius && row.mapped);
             own.map(|row| (row.chains as f64, 100.0 * row.score.median(part))).collect()
         };

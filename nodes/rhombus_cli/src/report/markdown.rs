@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use super::page::{Chapter, Page};
+use super::page::{Chapter, Page, ROWS_IN_SIGHT};
 use super::section::Exhibit;
+use super::table::Table;
 
 /// The page.
 pub(crate) fn page(page: &Page) -> String {
@@ -52,15 +53,26 @@ fn exhibit_text(text: &mut String, exhibit: &Exhibit) {
         push(text, format_args!("![{title}]({svg})\n\n"));
     }
     push(text, format_args!("{}\n\n", escaped(&exhibit.whole_caption())));
-    let headings: Vec<String> = exhibit.table.headings().map(|heading| escaped(&heading)).collect();
-    push(text, format_args!("| {} |\n|{}\n", headings.join(" | "), "---|".repeat(headings.len())));
-    for row in exhibit.table.rows() {
-        let cells: Vec<String> = row.iter().map(|cell| escaped(&cell.shown())).collect();
-        push(text, format_args!("| {} |\n", cells.join(" | ")));
+    if exhibit.table.len() > ROWS_IN_SIGHT {
+        push(
+            text,
+            format_args!("Table: {} rows in [{1}.csv]({1}.csv).\n", exhibit.table.len(), exhibit.name),
+        );
+    } else {
+        table_text(text, &exhibit.table);
     }
     let links: Vec<String> =
         exhibit.data_files().into_iter().map(|(name, _)| format!("[{name}]({name})")).collect();
     push(text, format_args!("\n{}\n", links.join(", ")));
+}
+
+fn table_text(text: &mut String, table: &Table) {
+    let headings: Vec<String> = table.headings().map(|heading| escaped(&heading)).collect();
+    push(text, format_args!("| {} |\n|{}\n", headings.join(" | "), "---|".repeat(headings.len())));
+    for row in table.rows() {
+        let cells: Vec<String> = row.iter().map(|cell| escaped(&cell.shown())).collect();
+        push(text, format_args!("| {} |\n", cells.join(" | ")));
+    }
 }
 
 /// Nothing in a text is taken for a table's line or for emphasis.

@@ -3,6 +3,9 @@
 use super::origin::Origin;
 use super::section::{Ask, Exhibit, Outcome, Section, SectionOutput, Verdict};
 
+/// Longer tables are folded on the page, and left to their file in Markdown.
+pub(crate) const ROWS_IN_SIGHT: usize = 40;
+
 /// The whole report.
 pub(crate) struct Page {
     /// Machine, commit, date.

@@ -20,7 +20,7 @@ const GRID: RGBColor = RGBColor(0xdf, 0xe3, 0xe8);
 /// Behind everything.
 const GROUND: RGBColor = RGBColor(0xff, 0xff, 0xff);
 /// Readable on white and on near black, and apart for colour-blind eyes (after Okabe and Ito).
-const PALETTE: [RGBColor; 10] = [
+const PALETTE: [RGBColor; 14] = [
     RGBColor(0x1f, 0x7a, 0xc4),
     RGBColor(0xd5, 0x5e, 0x00),
     RGBColor(0x0b, 0x9e, 0x73),
@@ -31,6 +31,10 @@ const PALETTE: [RGBColor; 10] = [
     RGBColor(0x8a, 0x8f, 0x96),
     RGBColor(0xa8, 0x6a, 0x2e),
     RGBColor(0x94, 0xb0, 0x2a),
+    RGBColor(0xd8, 0x4a, 0x4a),
+    RGBColor(0x2f, 0x94, 0x9a),
+    RGBColor(0xa9, 0x52, 0xc4),
+    RGBColor(0x6b, 0x7d, 0x3a),
 ];
 
 /// plotters places everything on whole pixels: it is given this many for each pixel of the drawing.

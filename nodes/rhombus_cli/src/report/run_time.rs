@@ -38,7 +38,7 @@ const REFERENCE: &str = "liver_r5";
 
 fn run(context: &Context) -> anyhow::Result<SectionOutput> {
     let (model_sizes, peer_sizes): (&[usize], &[usize]) = match context.mode {
-        Mode::Quick => (&[500, 1000, VERTICES, 50_000], &[500, 1000]),
+        Mode::Quick => (&[500, 1000, VERTICES, 20_000], &[500, 1000]),
         Mode::Full => {
             (&[500, 1000, VERTICES, 10_000, 50_000, 200_000], &[500, 1000, VERTICES, 10_000, 200_000])
         }

@@ -124,10 +124,10 @@ fn linear((low, high): (f64, f64)) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// Powers of ten, every one or every few; below two decades 2 and 5 as well.
+/// Powers of ten, every one or every few; below two and a half decades 2 and 5 as well.
 fn logarithmic((low, high): (f64, f64)) -> Vec<(f64, String)> {
     const MOST_LABELS: f64 = 9.0;
-    let between = if high - low < 2.0 { &[1.0, 2.0, 5.0][..] } else { &[1.0] };
+    let between = if high - low < 2.5 { &[1.0, 2.0, 5.0][..] } else { &[1.0] };
     let every = ((high - low) / MOST_LABELS).ceil().max(1.0) as i64;
     let decades = (low.floor() as i64..=high.ceil() as i64).filter(|decade| decade % every == 0);
     decades
@@ -181,7 +181,7 @@ mod tests {
             ["0.01", "0.1", "1", "10", "100", "1000", "10000", "10⁵"]
         );
         assert_eq!(labels(&Axis::log("").within(1.0, 10.0), &[]), ["1", "2", "5", "10"]);
-        assert_eq!(labels(&Axis::log("").within(1e-12, 1e-10), &[]), ["10⁻¹²", "10⁻¹¹", "10⁻¹⁰"]);
+        assert_eq!(labels(&Axis::log("").within(1e-13, 1e-10), &[]), ["10⁻¹³", "10⁻¹²", "10⁻¹¹", "10⁻¹⁰"]);
     }
 
     #[test]

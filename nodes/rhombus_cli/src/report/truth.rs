@@ -106,18 +106,21 @@ impl TruthSite {
     }
 }
 
+/// One part of a distance.
+pub(crate) type Part = fn(&Distance) -> f64;
+
 /// Distances at several sites.
 #[derive(Clone, Debug)]
 pub(crate) struct Score(pub(crate) Vec<(usize, Distance)>);
 
 impl Score {
     /// The median of one part over the sites.
-    pub(crate) fn median(&self, part: fn(&Distance) -> f64) -> f64 {
+    pub(crate) fn median(&self, part: Part) -> f64 {
         rhombus_cli::calibrate::errors::median(self.0.iter().map(|(_, distance)| part(distance)).collect())
     }
 
     /// The largest of one part over the sites.
-    pub(crate) fn worst(&self, part: fn(&Distance) -> f64) -> f64 {
+    pub(crate) fn worst(&self, part: Part) -> f64 {
         self.0.iter().map(|(_, distance)| part(distance)).fold(0.0, f64::max)
     }
 }

@@ -35,6 +35,7 @@ impl Folder {
         Folder { folder: tempfile::tempdir().expect("a folder") }
     }
 
+    #[allow(dead_code, reason = "not every test file needs it")]
     pub(crate) fn with(self, name: &str, text: &str) -> Folder {
         std::fs::write(self.path(name), text).expect("a file");
         self

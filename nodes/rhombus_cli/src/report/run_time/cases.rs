@@ -1,5 +1,6 @@
 //! Every method on every mesh: set up, timed, judged.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use anyhow::Result;
@@ -9,10 +10,10 @@ use rhombus_chain::{Body, StiffnessMap, SurfaceMesh};
 use rhombus_peers::{Job, Material, PeerKind, SetupError, TetMesh};
 use scene::{BodyKind, generate};
 
-use super::REFERENCE;
+use super::{REFERENCE, VERTICES};
 use crate::report::clockwork::{FEWEST, Times, times};
 use crate::report::lab::{Calibrated, MOST_CHAINS};
-use crate::report::section::Context;
+use crate::report::section::{Context, Mode};
 use crate::report::subject::{Model, Other, Place, Subject};
 use crate::report::truth::{self, Score, TruthSite};
 
@@ -54,8 +55,11 @@ pub(super) const MODEL: &str = "rhombus chains";
 const DEPTH_M: f64 = 0.005;
 /// Way of the contact between two queries, m.
 const STRIDE_M: f64 = 0.003;
-/// Repeats of the model; peers get the fewest that make a median.
+/// Queries of the model up to 5000 vertices; on larger meshes in proportion fewer, and peers get the fewest that make a median.
 const MODEL_REPEATS: usize = 300;
+/// A peer's whole case may be expected to take this long, s; in full mode that holds beyond the body's own size.
+const QUICK_S: f64 = 5.0;
+const FULL_S: f64 = 300.0;
 
 /// A mesh with everything that is asked on it.
 struct Stage {
@@ -75,6 +79,7 @@ pub(super) fn measure(context: &Context, model_sizes: &[usize], peer_sizes: &[us
     sizes.sort_unstable();
     sizes.dedup();
     let mut entries = Vec::new();
+    let mut spent = Spent::default();
     for vertices in sizes {
         context.progress.step(&format!("liver of {vertices} vertices"));
         let stage = Stage::new(context, &calibrated[0].constant, vertices)?;
@@ -96,19 +101,56 @@ pub(super) fn measure(context: &Context, model_sizes: &[usize], peer_sizes: &[us
             let volume =
                 context.lab.tetrahedra(vertices).ok().map(|path| TetMesh::read(&path)).transpose()?;
             for kind in rhombus_peers::all() {
-                context.progress.step(&format!("{vertices} vertices: {}", kind.name));
+                let outcome = match spent.allows(context.mode, kind.name, vertices) {
+                    Err(why) => Err(why),
+                    Ok(()) => {
+                        context.progress.step(&format!("{vertices} vertices: {}", kind.name));
+                        let start = Instant::now();
+                        let outcome = peer(&stage, kind, volume.as_ref());
+                        spent.note(kind.name, vertices, start.elapsed().as_secs_f64());
+                        outcome
+                    }
+                };
                 entries.push(Entry {
                     method: kind.name,
                     citation: kind.citation,
                     chains: None,
                     chosen: false,
                     vertices,
-                    outcome: peer(&stage, kind, volume.as_ref()),
+                    outcome,
                 });
             }
         }
     }
     Ok(entries)
+}
+
+/// How long each peer's case took on the mesh before, so that a run ends in its time.
+#[derive(Default)]
+struct Spent(BTreeMap<&'static str, (usize, f64)>);
+
+impl Spent {
+    fn note(&mut self, name: &'static str, vertices: usize, seconds: f64) {
+        self.0.insert(name, (vertices, seconds));
+    }
+
+    /// Whether the case may be measured. Dense systems grow with the square of the vertices or faster.
+    fn allows(&self, mode: Mode, name: &str, vertices: usize) -> Result<(), String> {
+        let limit_s = match mode {
+            Mode::Quick => QUICK_S,
+            Mode::Full if vertices <= VERTICES => return Ok(()),
+            Mode::Full => FULL_S,
+        };
+        let Some((before, seconds)) = self.0.get(name) else { return Ok(()) };
+        let expected_s = seconds * (vertices as f64 / *before as f64).powi(2);
+        if expected_s <= limit_s {
+            return Ok(());
+        }
+        Err(match mode {
+            Mode::Quick => format!("only in --full: about {expected_s:.0} s or more"),
+            Mode::Full => format!("not measured: about {:.0} min or more", expected_s / 60.0),
+        })
+    }
 }
 
 impl Stage {
@@ -166,9 +208,9 @@ fn model(stage: &Stage, calibrated: &Calibrated, mapped: bool) -> Result<Case> {
     }
     let mut model = Model::new(&body, &calibrated.tissue);
     let setup_s = start.elapsed().as_secs_f64();
-    let mut case = stage.case(&mut model, MODEL_REPEATS, setup_s);
-    case.force =
-        Some(times(MODEL_REPEATS, |repeat| model.force(&stage.walk[repeat % stage.walk.len()], DEPTH_M)));
+    let repeats = (MODEL_REPEATS * 5000 / body.mesh().vertices().len()).clamp(FEWEST, MODEL_REPEATS);
+    let mut case = stage.case(&mut model, repeats, setup_s);
+    case.force = Some(times(repeats, |repeat| model.force(&stage.walk[repeat % stage.walk.len()], DEPTH_M)));
     Ok(case)
 }
 
@@ -187,7 +229,7 @@ fn peer(stage: &Stage, kind: &PeerKind, volume: Option<&TetMesh>) -> Result<Case
             let [needed, limit] = [needed_bytes, limit_bytes].map(|bytes| bytes as f64 / 1e9);
             format!("does not fit: {needed:.1} GB (free: {limit:.1} GB)")
         }
-        SetupError::NoVolume => "needs tetrahedra, of which there are none of this size".to_owned(),
+        SetupError::NoVolume => "needs tetrahedra; tests/reference/tets has none of this size".to_owned(),
         other => other.to_string(),
     })?;
     let setup_s = start.elapsed().as_secs_f64();

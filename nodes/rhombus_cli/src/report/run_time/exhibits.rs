@@ -1,20 +1,20 @@
 //! Figures and tables of error against run time.
 
 use super::VERTICES;
-use super::cases::{Case, Entry, MODEL};
+use super::cases::{Case, Entry};
 use crate::report::figure::{Axis, Figure, Line, Marker, Point, Series};
 use crate::report::lab::MOST_CHAINS;
 use crate::report::liver::stiffness;
 use crate::report::section::Exhibit;
 use crate::report::table::{Cell, Table};
-use crate::report::truth::Distance;
+use crate::report::truth::Part;
 
 /// An error and how it is called.
 struct Quantity {
     name: &'static str,
     title: &'static str,
     axis: &'static str,
-    part: fn(&Distance) -> f64,
+    part: Part,
 }
 
 const QUANTITIES: [Quantity; 4] = [
@@ -113,38 +113,48 @@ fn error_against_time(quantity: &Quantity, entries: &[Entry]) -> Exhibit {
     }
 }
 
-/// One series for the chains on each mesh, with and without map; one for each peer.
+/// Of the variants of a peer.
+const MARKERS: [Marker; 3] = [Marker::Square, Marker::Triangle, Marker::Cross];
+
+/// One series for the chains on each mesh, with and without map; one for each peer. Equal meshes of the chains have equal
+/// colours, and so have the variants of a peer.
 fn series(entries: &[Entry], point: impl Fn(&Case) -> Point) -> Vec<Series> {
+    let mut families: Vec<String> = Vec::new();
     let mut all: Vec<Series> = Vec::new();
     for (entry, case) in measured(entries) {
-        let name = match entry.chains {
-            Some((_, mapped)) => format!("chains, {} vertices, {}", entry.vertices, stiffness(mapped)),
-            None => entry.method.to_owned(),
+        let (family, name) = match entry.chains {
+            Some((_, mapped)) => {
+                let family = format!("chains, {} vertices", entry.vertices);
+                let name = format!("{family}, {}", stiffness(mapped));
+                (family, name)
+            }
+            None => (family(entry.method).to_owned(), entry.method.to_owned()),
         };
         if let Some(known) = all.iter_mut().find(|series| series.name == name) {
             known.points.push(point(case));
             continue;
         }
-        let same_size = format!("chains, {} vertices, ", entry.vertices);
-        let colours = all.iter().map(|series| series.colour + 1).max().unwrap_or(0);
-        let colour = match entry.chains {
-            Some(_) => all
-                .iter()
-                .find(|series| series.name.starts_with(&same_size))
-                .map_or(colours, |series| series.colour),
-            None => colours,
-        };
-        const MARKERS: [Marker; 3] = [Marker::Square, Marker::Triangle, Marker::Cross];
+        let colour = families.iter().position(|known| *known == family).unwrap_or_else(|| {
+            families.push(family);
+            families.len() - 1
+        });
+        let variant = all.iter().filter(|series| series.colour == colour).count();
         let (line, marker) = match entry.chains {
             Some((_, true)) => (Line::Solid, Marker::Circle),
             Some((_, false)) => (Line::Dashed, Marker::Ring),
-            None => (Line::Dashed, MARKERS[all.len() % MARKERS.len()]),
+            None => (Line::Dashed, MARKERS[variant % MARKERS.len()]),
         };
         all.push(Series { name, points: vec![point(case)], line, marker, colour });
     }
-    // The chains last in drawing order would hide nothing, but they come first in the legend.
+    // In the legend the chains come first.
     all.sort_by_key(|series| !series.name.starts_with("chains, "));
     all
+}
+
+/// `FEM, 1st order` of `condensed FEM, 1st order, full product`.
+fn family(method: &str) -> &str {
+    let name = method.trim_start_matches("condensed ");
+    name.rsplit_once(',').map_or(name, |(family, _)| family)
 }
 
 fn time_against_size(entries: &[Entry]) -> Exhibit {
@@ -190,24 +200,6 @@ fn time_against_size(entries: &[Entry]) -> Exhibit {
             }
         }
     }
-    let mut series: Vec<Series> = Vec::new();
-    let shown = measured(entries).filter(|(entry, _)| {
-        entry.chains.is_none_or(|(chains, mapped)| mapped && [1, 3, 5].contains(&chains))
-    });
-    for (entry, case) in shown {
-        let name = match entry.chains {
-            Some((chains, _)) => format!("{chains} chain{}, map", if chains == 1 { "" } else { "s" }),
-            None => entry.method.to_owned(),
-        };
-        let at = (entry.vertices as f64, case.moved.median_us());
-        match series.iter_mut().find(|series| series.name == name) {
-            Some(known) => known.points.push(Point::new(at.0, at.1)),
-            None => {
-                let marker = if entry.method == MODEL { Marker::Circle } else { Marker::Square };
-                series.push(Series::line(&name, series.len(), [at]).marked(marker));
-            }
-        }
-    }
     Exhibit {
         name: "run_time_size",
         title: "Time, setup and memory against the size of the mesh".to_owned(),
@@ -219,11 +211,41 @@ fn time_against_size(entries: &[Entry]) -> Exhibit {
         figure: Some(Figure {
             x: Axis::log("vertices of the surface"),
             y: Axis::log("time of one query, force and surface [us]"),
-            series,
+            series: series_over_size(entries),
         }),
         table,
         raw: Some(raw),
     }
+}
+
+/// One series for some numbers of chains, one for each peer.
+fn series_over_size(entries: &[Entry]) -> Vec<Series> {
+    const SHOWN: [usize; 3] = [1, 3, 5];
+    let mut families: Vec<String> = SHOWN.iter().map(|chains| format!("{chains} chains, map")).collect();
+    let mut all: Vec<Series> = Vec::new();
+    for (entry, case) in measured(entries) {
+        let (name, family, marker) = match entry.chains {
+            Some((chains, true)) if SHOWN.contains(&chains) => {
+                let name = format!("{chains} chains, map");
+                (name.clone(), name, Marker::Circle)
+            }
+            Some(_) => continue,
+            None => (entry.method.to_owned(), family(entry.method).to_owned(), Marker::Square),
+        };
+        let at = Point::new(entry.vertices as f64, case.moved.median_us());
+        if let Some(known) = all.iter_mut().find(|series| series.name == name) {
+            known.points.push(at);
+            continue;
+        }
+        let colour = families.iter().position(|known| *known == family).unwrap_or_else(|| {
+            families.push(family);
+            families.len() - 1
+        });
+        let variant = all.iter().filter(|series| series.colour == colour).count();
+        let marker = if marker == Marker::Square { MARKERS[variant % MARKERS.len()] } else { marker };
+        all.push(Series { name, points: vec![at], line: Line::Solid, marker, colour });
+    }
+    all
 }
 
 fn citations(entries: &[Entry]) -> Exhibit {
