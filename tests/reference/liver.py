@@ -213,7 +213,7 @@ MESHES = {
 
 
 def run_convergence(body: Surface, count: int) -> None:
-    """The top and the last two held-out sites (upper side, left end) on coarser and finer meshes, compared with the one used."""
+    """The top and the last two held-out sites (upper side, left end) on other meshes, compared with the one used."""
     chosen = sites.choose(body, count)
     rows = []
     for vertex in [chosen[0], *chosen[sites.held_out(count)][-2:]]:
