@@ -6,7 +6,7 @@ mod common;
 use assert_no_alloc::{AllocDisabler, assert_no_alloc};
 use common::{Random, body, bumpy, surface, tissue_with};
 use glam::DVec3;
-use rhombus_chain::{ArcLengths, Interaction, Mode, Spread, SurfaceField};
+use rhombus_chain::{ArcLengths, Interaction, Mode, Spread, StiffnessMap, SurfaceField};
 
 #[global_allocator]
 static GUARD: AllocDisabler = AllocDisabler;
@@ -14,6 +14,9 @@ static GUARD: AllocDisabler = AllocDisabler;
 #[test]
 fn no_pose_and_no_surface_allocates_after_construction() {
     let body = body(bumpy(4));
+    let factors = body.mesh().vertices().iter().map(|p| 1.0 + 10.0 * p.x.abs()).collect();
+    let map = StiffnessMap::new(factors, body.mesh()).expect("accepted factors");
+    let body = body.with_stiffness(map).expect("its own map");
     for spread in [Spread::Geodesic, Spread::Rings] {
         for expansion in [0.0, 0.5] {
             let tissue = tissue_with(3, surface(expansion, spread));

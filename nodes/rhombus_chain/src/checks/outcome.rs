@@ -203,8 +203,8 @@ fn answer(law: &ContactLaw, depth_m: f64) -> Result<LawResponse, String> {
     let is_finite = force_n.is_finite() && stiffness_n_per_m.is_finite() && energy_j.is_finite();
     let is_passive = force_n * depth_m.signum() >= 0.0 && stiffness_n_per_m > 0.0 && energy_j >= 0.0;
     let chain = law.chains()[0].response(-depth_m);
-    let moves = chain.dl_1_m.is_finite() && chain.d_theta_rad.is_finite() && chain.dw_1_m.is_finite();
-    if is_finite && is_passive && moves {
+    let moves = [chain.force_n, chain.energy_j, chain.dl_1_m, chain.d_theta_rad, chain.dw_1_m];
+    if is_finite && is_passive && moves.iter().all(|number| number.is_finite()) {
         return Ok(response);
     }
     Err(format!("at {depth_m:e} m: {response:?}, {chain:?}"))
