@@ -73,7 +73,7 @@ struct Tally {
     counts: BTreeMap<(&'static str, &'static str), u64>,
     third: u64,
     faults: Vec<String>,
-    /// Energy law: accepted and all, by half decade of k_t/k_n and angle.
+    /// Energy law, sums that overflow left out: accepted and all, by half decade of k_t/k_n and angle.
     bins: Vec<[u64; 2]>,
 }
 
@@ -117,7 +117,7 @@ impl Tally {
             }
         };
         *self.counts.entry((name, outcome)).or_default() += 1;
-        if extreme.formulation == Formulation::Energy {
+        if extreme.formulation == Formulation::Energy && outcome != OUTCOMES[3] {
             let chain = &extreme.chain;
             let decades = libm::log10(chain.tangential_stiffness_n_per_m / chain.normal_stiffness_n_per_m);
             let ratio = ((2.0 * (decades + 6.0)) as usize).min(RATIO_BINS - 1);
@@ -213,9 +213,9 @@ fn map(tally: &Tally) -> Exhibit {
     Exhibit {
         name: "stability_map",
         title: "Energy laws: share accepted".to_owned(),
-        caption: "Over the ratio of the springs and the angle, whatever the other parameters. Low, stiff tangential springs store \
-                  more when pressed than the normal ones: such chains would snap through and are refused. A chain whose springs \
-                  grow too fast is refused at any angle."
+        caption: "Over the ratio of the springs and the angle, whatever the other parameters; chains whose sums overflow are left \
+                  out. Where tangential springs store more when pressed than the normal ones, a chain would snap through and is \
+                  refused."
             .to_owned(),
         figure: Some(Figure {
             x: Axis::log("k_t/k_n").within(1e-6, 1e6),
