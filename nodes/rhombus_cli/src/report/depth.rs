@@ -23,9 +23,9 @@ const PARTS: [(&str, Part); 3] =
 fn run(context: &Context) -> anyhow::Result<SectionOutput> {
     Ok(SectionOutput {
         text: vec![
-            "Linear elasticity answers in proportion to the depth; the chains' surface does not quite (the way of a rod's end is an arc), \
-             nor do their guards beyond the depth that was calibrated. So the error grows with depth, and what is shown is the model's \
-             distance from the linear solution, not from a body of large strains."
+            "Linear elasticity answers in proportion to the depth; the chains' surface does not quite (the end of a turning rod moves on an \
+             arc), nor does a law past its guard. What is shown is the distance from the linear solution at every depth, not from a body \
+             of large strains."
                 .to_owned(),
         ],
         exhibits: vec![against_depth(context)?, against_poisson(context)?],

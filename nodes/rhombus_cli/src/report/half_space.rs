@@ -144,7 +144,8 @@ fn profiles(fits: &[Fit], distances: &[f64], exact: &[f64]) -> Exhibit {
     }
 }
 
-fn name(chains: usize) -> String {
+/// `1 chain`, `2 chains`.
+pub(crate) fn name(chains: usize) -> String {
     format!("{chains} chain{}", if chains == 1 { "" } else { "s" })
 }
 

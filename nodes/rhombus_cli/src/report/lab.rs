@@ -11,6 +11,7 @@ use rhombus_chain::{Body, StiffnessMap, SurfaceMesh, Tissue};
 use rhombus_cli::calibrate::sites;
 use rhombus_cli::reference::Reference;
 
+use super::half_space;
 use super::progress::Progress;
 
 /// Parallel chains that are calibrated: 1 to this many.
@@ -91,10 +92,10 @@ impl Lab {
             return Ok(Rc::clone(known));
         }
         let reference = self.reference(name)?;
-        progress.step(&format!("calibrating {chains} chains on {name}"));
+        progress.step(&format!("calibrating {} on {name}", half_space::name(chains)));
         let start = Instant::now();
         let fitted = sites::fit(&reference, chains, true)
-            .with_context(|| format!("{name}: {chains} chains cannot be calibrated"))?;
+            .with_context(|| format!("{name}: {} cannot be calibrated", half_space::name(chains)))?;
         let seconds = start.elapsed().as_secs_f64();
         let mesh = SurfaceMesh::new(reference.vertices.clone(), reference.faces.clone())?;
         let factors = fitted.map.context("the calibration has no map")?;

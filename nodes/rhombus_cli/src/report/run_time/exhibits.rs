@@ -3,6 +3,7 @@
 use super::VERTICES;
 use super::cases::{Case, Entry};
 use crate::report::figure::{Axis, Figure, Line, Marker, Point, Series};
+use crate::report::half_space::name;
 use crate::report::lab::MOST_CHAINS;
 use crate::report::liver::stiffness;
 use crate::report::section::Exhibit;
@@ -221,12 +222,12 @@ fn time_against_size(entries: &[Entry]) -> Exhibit {
 /// One series for some numbers of chains, one for each peer.
 fn series_over_size(entries: &[Entry]) -> Vec<Series> {
     const SHOWN: [usize; 3] = [1, 3, 5];
-    let mut families: Vec<String> = SHOWN.iter().map(|chains| format!("{chains} chains, map")).collect();
+    let mut families: Vec<String> = SHOWN.iter().map(|&chains| format!("{}, map", name(chains))).collect();
     let mut all: Vec<Series> = Vec::new();
     for (entry, case) in measured(entries) {
         let (name, family, marker) = match entry.chains {
             Some((chains, true)) if SHOWN.contains(&chains) => {
-                let name = format!("{chains} chains, map");
+                let name = format!("{}, map", name(chains));
                 (name.clone(), name, Marker::Circle)
             }
             Some(_) => continue,
