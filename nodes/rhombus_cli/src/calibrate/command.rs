@@ -24,6 +24,7 @@ use crate::reference::Reference;
 /// The error that was reached stands at the top of the file, with what the data could not tell. Every law that is written is
 /// accepted by the model. Lengths in m, forces in N, pressures in Pa; a table says its units in its header.
 #[derive(Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Calibrate {
     #[command(flatten)]
     target: Target,
