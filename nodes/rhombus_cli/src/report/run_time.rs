@@ -3,6 +3,8 @@
 mod cases;
 mod exhibits;
 
+use super::half_space::name;
+use super::lab::MOST_CHAINS;
 use super::section::{Ask, Context, Mode, Section, SectionOutput, Verdict};
 use cases::{Case, Entry};
 
@@ -44,7 +46,7 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
         }
     };
     let entries = cases::measure(context, model_sizes, peer_sizes)?;
-    let text = vec![
+    let mut text = vec![
         "One query is what a session does in one period of a moving contact: the force on the hand and the displacement of every \
          surface vertex, where the contact has moved by 3 mm since the query before (0.2 m/s at 60 Hz). For the chains that is the step \
          of the interaction and the update of the surface field; for a peer, the change of contact and the product. The row \"contact \
@@ -57,6 +59,7 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
          timed for one step and judged at rest."
             .to_owned(),
     ];
+    text.extend(times_as_fast(&entries));
     Ok(SectionOutput { text, verdicts: verdicts(context.mode, &entries), exhibits: exhibits::all(&entries) })
 }
 
@@ -90,6 +93,24 @@ fn verdicts(mode: Mode, entries: &[Entry]) -> Vec<Verdict> {
         });
     }
     verdicts
+}
+
+/// How many times as fast as each full product the chains are, for every number of chains; nothing without the products.
+fn times_as_fast(entries: &[Entry]) -> Option<String> {
+    let case = |wanted: &dyn Fn(&Entry) -> bool| {
+        let entry = entries.iter().find(|entry| entry.vertices == VERTICES && wanted(entry))?;
+        entry.outcome.as_ref().ok()
+    };
+    let [first, second] = FASTER.map(|(_, name)| case(&|entry| entry.method == name));
+    let (first, second) = (first?.stayed.median_us(), second?.stayed.median_us());
+    let ratios = (1..=MOST_CHAINS).filter_map(|chains| {
+        let own = case(&|entry| entry.chains == Some((chains, true)))?.moved.median_us();
+        Some(format!("{} {:.0} and {:.0} x", name(chains), first / own, second / own))
+    });
+    Some(format!(
+        "Force and surface with a moving contact on {VERTICES} vertices, beside the product alone of condensed FEM of 1st and 2nd order: {}.",
+        ratios.collect::<Vec<_>>().join("; ")
+    ))
 }
 
 /// The model with a moving contact beside the peer's product alone, which leaves the change of contact out of the peer's time.

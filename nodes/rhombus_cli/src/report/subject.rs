@@ -1,7 +1,7 @@
 //! Who is compared: our model and its peers behind the same questions, on the same body.
 
 use glam::DVec3;
-use rhombus_chain::{Body, Interaction, SurfaceField, Tissue};
+use rhombus_chain::{Body, Impression, Interaction, SurfaceField, Tissue};
 use rhombus_peers::Peer;
 
 /// Where a contact is.
@@ -37,6 +37,8 @@ pub(crate) struct Model<'a> {
     interaction: Interaction,
     field: SurfaceField,
     stamp_ns: i64,
+    /// The contact where it last moved to.
+    held: Option<Impression>,
 }
 
 impl<'a> Model<'a> {
@@ -48,6 +50,7 @@ impl<'a> Model<'a> {
             interaction: Interaction::new(),
             field: SurfaceField::new(body, tissue),
             stamp_ns: 0,
+            held: None,
         }
     }
 
@@ -65,12 +68,17 @@ impl<'a> Model<'a> {
 impl Subject for Model<'_> {
     fn moved(&mut self, place: &Place, depth_m: f64) -> f64 {
         let force_n = self.force(place, depth_m);
-        self.field.update(self.body, self.tissue, self.interaction.impressions());
+        self.held = self.interaction.impressions().next();
+        self.field.update(self.body, self.tissue, self.held);
         force_n
     }
 
     fn stayed(&mut self, place: &Place, depth_m: f64) -> f64 {
-        self.moved(place, depth_m)
+        let held = self.held;
+        let force_n = self.force(place, depth_m);
+        // The probe's way in is straight but for rounding, which would move the contact by a hair's breadth.
+        self.field.update(self.body, self.tissue, held.map(|held| Impression { depth_m, ..held }));
+        force_n
     }
 
     fn settled(&mut self, place: &Place, depth_m: f64, field: &mut [DVec3]) -> f64 {

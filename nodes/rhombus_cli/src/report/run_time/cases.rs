@@ -102,7 +102,7 @@ pub(super) fn measure(context: &Context, model_sizes: &[usize], peer_sizes: &[us
                 context.lab.tetrahedra(vertices).ok().map(|path| TetMesh::read(&path)).transpose()?;
             for kind in rhombus_peers::all() {
                 let outcome = match spent.allows(context.mode, kind.name, vertices) {
-                    Err(why) => Err(why),
+                    Err(why) => Err(refused_at_once(&stage, kind, volume.as_ref()).unwrap_or(why)),
                     Ok(()) => {
                         context.progress.step(&format!("{vertices} vertices: {}", kind.name));
                         let start = Instant::now();
@@ -175,6 +175,17 @@ impl Stage {
         Ok(Self { body, fixed, sites, walk })
     }
 
+    fn job<'a>(&'a self, volume: Option<&'a TetMesh>, memory_limit_bytes: u64) -> Job<'a> {
+        Job {
+            surface: self.body.mesh(),
+            volume,
+            fixed: volume.map_or(&self.fixed, |volume| &volume.fixed),
+            material: Material { young_pa: 10e3, poisson: 0.45 },
+            contact_radius_m: DEPTH_M,
+            memory_limit_bytes,
+        }
+    }
+
     /// Times and judges a subject that is set up.
     fn case(&self, subject: &mut dyn Subject, repeats: usize, setup_s: f64) -> Case {
         let place = |repeat: usize| &self.walk[repeat % self.walk.len()];
@@ -215,26 +226,33 @@ fn model(stage: &Stage, calibrated: &Calibrated, mapped: bool) -> Result<Case> {
 }
 
 fn peer(stage: &Stage, kind: &PeerKind, volume: Option<&TetMesh>) -> Result<Case, String> {
-    let job = Job {
-        surface: stage.body.mesh(),
-        volume,
-        fixed: volume.map_or(&stage.fixed, |volume| &volume.fixed),
-        material: Material { young_pa: 10e3, poisson: 0.45 },
-        contact_radius_m: DEPTH_M,
-        memory_limit_bytes: memory_limit_bytes(),
-    };
     let start = Instant::now();
-    let peer = (kind.setup)(&job).map_err(|error| match error {
-        SetupError::DoesNotFit { needed_bytes, limit_bytes } => {
+    let limit_bytes = memory_limit_bytes();
+    let peer = (kind.setup)(&stage.job(volume, limit_bytes)).map_err(|error| refusal(error, limit_bytes))?;
+    let setup_s = start.elapsed().as_secs_f64();
+    let mut other = Other::new(peer, stage.body.mesh().vertices().len());
+    Ok(stage.case(&mut other, FEWEST, setup_s))
+}
+
+/// Why a peer that would take too long to measure could not be set up anyway. It is given no memory at all, so that whoever
+/// asks for memory is refused before anything is computed.
+fn refused_at_once(stage: &Stage, kind: &PeerKind, volume: Option<&TetMesh>) -> Option<String> {
+    let limit_bytes = memory_limit_bytes();
+    match (kind.setup)(&stage.job(volume, 0)).err()? {
+        SetupError::DoesNotFit { needed_bytes, .. } if needed_bytes <= limit_bytes => None,
+        other => Some(refusal(other, limit_bytes)),
+    }
+}
+
+fn refusal(error: SetupError, limit_bytes: u64) -> String {
+    match error {
+        SetupError::DoesNotFit { needed_bytes, .. } => {
             let [needed, limit] = [needed_bytes, limit_bytes].map(|bytes| bytes as f64 / 1e9);
             format!("does not fit: {needed:.1} GB (free: {limit:.1} GB)")
         }
         SetupError::NoVolume => "needs tetrahedra; tests/reference/tets has none of this size".to_owned(),
         other => other.to_string(),
-    })?;
-    let setup_s = start.elapsed().as_secs_f64();
-    let mut other = Other::new(peer, stage.body.mesh().vertices().len());
-    Ok(stage.case(&mut other, FEWEST, setup_s))
+    }
 }
 
 /// Nine tenths of the memory that is free now.
