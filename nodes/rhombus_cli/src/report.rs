@@ -42,8 +42,7 @@ use staging::Staging;
 use rhombus_cli::output;
 
 /// Every section, in the order of the page.
-const SECTIONS: &[Section] =
-    &[
+const SECTIONS: &[Section] = &[
     half_space::SECTION,
     liver::SECTION,
     run_time::SECTION,

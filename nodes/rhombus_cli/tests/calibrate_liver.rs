@@ -40,6 +40,23 @@ fn three_chains_leave_hardly_more_near_the_contact_than_any_single_shape_must() 
     assert!(rms >= 0.99 * found.least_near && rms < 1.05 * found.least_near, "{rms}, {}", found.least_near);
 }
 
+/// What a reach leaves out is far away: the surface near the contact is followed as well as before.
+#[test]
+fn a_reach_ends_the_surface_and_costs_little_near_the_contact() {
+    let reference = reference();
+    let near = |errors: &[SiteError]| median(errors.iter().map(|error| error.near_rel_l2).collect());
+    let whole = sites::fit(&reference, 3, false).expect("it fits");
+    let within = sites::fit_within(&reference, 3, false, 0.060).expect("it fits");
+    for chain in &within.chains {
+        let reach_m = chain.pitch_m * f64::from(chain.units);
+        assert!(reach_m <= 0.060 * (1.0 + 1e-12), "{reach_m} m");
+    }
+    assert!(whole.chains.iter().any(|chain| chain.pitch_m * f64::from(chain.units) > 0.060));
+    assert!(near(&within.used) < 1.05 * near(&whole.used));
+    let refused = sites::fit_within(&reference, 3, false, 0.0).expect_err("no reach");
+    assert_eq!(refused.to_string(), "reach = 0; accepted: greater than 0, m");
+}
+
 #[test]
 fn the_references_are_of_the_liver_that_a_scene_names() {
     let liver = [("body.mesh".to_owned(), Value::String("liver".to_owned()))];

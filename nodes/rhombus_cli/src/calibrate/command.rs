@@ -76,6 +76,9 @@ pub struct Calibrate {
     /// Regional stiffness map: on with 8 sites or more by default
     #[arg(long, value_name = "on|off", requires = "reference", value_parser = on_or_off)]
     map: Option<bool>,
+    /// Where the surface of --reference ends, m from the edge of the contact: less of it moves, at less cost
+    #[arg(long, value_name = "M", requires = "reference", default_value_t = f64::INFINITY, hide_default_value = true)]
+    reach: f64,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -225,7 +228,7 @@ impl Calibrate {
         reference.check_mesh(body.mesh())?;
         let with_map = self.map.unwrap_or(reference.used().len() >= sites::FEWEST_FOR_MAP);
         check_free(&self.output, with_map, self.force)?;
-        let found = sites::fit(&reference, self.chains, with_map)?;
+        let found = sites::fit_within(&reference, self.chains, with_map, self.reach)?;
         let mut source = format!(
             "{} reference solutions of {}; {} more were held out to judge",
             found.used.len(),

@@ -199,6 +199,7 @@ fn task(radius_m: f64, chains: usize) -> ShapeTask {
         depth_m: radius_m,
         range_m: 2.0 * radius_m,
         ends: false,
+        reach_m: f64::INFINITY,
         exact: true,
     }
 }

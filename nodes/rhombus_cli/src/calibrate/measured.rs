@@ -52,6 +52,7 @@ impl Measured {
             depth_m: self.contact_radius_m,
             range_m: 2.0 * deepest_m.max(self.contact_radius_m),
             ends: false,
+            reach_m: f64::INFINITY,
             exact: false,
         };
         let profile = self.shape_points()?;

@@ -54,6 +54,8 @@ pub(super) struct ShapeTask {
     pub(super) range_m: f64,
     /// Whether the shape may end before it has decayed, as on a body that is held somewhere.
     pub(super) ends: bool,
+    /// Distance behind the contact radius at which every shape has ended, m; infinite where nothing asks for an end.
+    pub(super) reach_m: f64,
     /// Whether the points are those of a formula or of a solution, and not measured.
     pub(super) exact: bool,
 }
@@ -186,7 +188,9 @@ impl ShapeTask {
                     // A chain of no weight at all would be refused.
                     weight: libm::exp((exponent - largest).max(-20.0)),
                     decay_m,
-                    extent_m: decay_m * extents.map_or(LONG, |at| between(EXTENTS.0, EXTENTS.1, x[at + i])),
+                    extent_m: self
+                        .reach_m
+                        .min(decay_m * extents.map_or(LONG, |at| between(EXTENTS.0, EXTENTS.1, x[at + i]))),
                     angle_rad: angles.map_or(ANGLE_RAD, |at| between(ANGLES.0, ANGLES.1, x[at + i])),
                 }
             })

@@ -51,6 +51,23 @@ const FACTORS: (f64, f64) = (1e-3, 1e3);
 /// # Errors
 /// No site, sites of several contact radii or with several contacts at once, too few sites for a map.
 pub fn fit(reference: &Reference, chains: usize, with_map: bool) -> Result<FittedBody, FitError> {
+    fit_within(reference, chains, with_map, f64::INFINITY)
+}
+
+/// [`fit`] with a surface that ends `reach_m` from the edge of the contact: what moves less far away is left out, and
+/// costs nothing.
+///
+/// # Errors
+/// Those of [`fit`]; a reach that is not positive.
+pub fn fit_within(
+    reference: &Reference,
+    chains: usize,
+    with_map: bool,
+    reach_m: f64,
+) -> Result<FittedBody, FitError> {
+    if reach_m.is_nan() || reach_m <= 0.0 {
+        return Err(FitError::Input { name: "reach", value: reach_m, accepted: "greater than 0, m" });
+    }
     let mesh = SurfaceMesh::new(reference.vertices.clone(), reference.faces.clone())
         .map_err(|error| FitError::Data(format!("{}: {error}", reference.file)))?;
     let sites = reference.used();
@@ -63,6 +80,7 @@ pub fn fit(reference: &Reference, chains: usize, with_map: bool) -> Result<Fitte
         depth_m: radius_m,
         range_m: 0.5 * (high - low).min_element(),
         ends: true,
+        reach_m,
         exact: true,
     };
     let rings = Rings::new(reference, &mesh, &sites, &contacts, radius_m);

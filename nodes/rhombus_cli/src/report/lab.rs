@@ -17,11 +17,17 @@ use super::progress::Progress;
 /// Parallel chains that are calibrated: 1 to this many.
 pub(crate) const MOST_CHAINS: usize = 5;
 
+/// Where the surface of a calibration with a short reach ends, m from the edge of the contact: twice the near field.
+pub(crate) const SHORT_REACH_M: f64 = 0.060;
+
+/// Reference, number of chains, whether the reach is short.
+type FitKey = (&'static str, usize, bool);
+
 /// References and calibrations.
 pub(crate) struct Lab {
     folder: PathBuf,
     references: RefCell<BTreeMap<&'static str, Rc<Reference>>>,
-    fits: RefCell<BTreeMap<(&'static str, usize), Rc<Calibrated>>>,
+    fits: RefCell<BTreeMap<FitKey, Rc<Calibrated>>>,
 }
 
 /// Chains, and the regional stiffness map that goes with them, from the sites of a reference that are not held out.
@@ -88,13 +94,29 @@ impl Lab {
         chains: usize,
         progress: &Progress,
     ) -> Result<Rc<Calibrated>> {
-        if let Some(known) = self.fits.borrow().get(&(name, chains)) {
+        self.calibrated_within(name, chains, false, progress)
+    }
+
+    /// The same with a surface that ends [`SHORT_REACH_M`] from the contact, if `short`.
+    ///
+    /// # Errors
+    /// Those of [`calibrated`](Self::calibrated).
+    pub(crate) fn calibrated_within(
+        &self,
+        name: &'static str,
+        chains: usize,
+        short: bool,
+        progress: &Progress,
+    ) -> Result<Rc<Calibrated>> {
+        let key = (name, chains, short);
+        if let Some(known) = self.fits.borrow().get(&key) {
             return Ok(Rc::clone(known));
         }
         let reference = self.reference(name)?;
         progress.step(&format!("calibrating {} on {name}", half_space::name(chains)));
         let start = Instant::now();
-        let fitted = sites::fit(&reference, chains, true)
+        let reach_m = if short { SHORT_REACH_M } else { f64::INFINITY };
+        let fitted = sites::fit_within(&reference, chains, true, reach_m)
             .with_context(|| format!("{name}: {} cannot be calibrated", half_space::name(chains)))?;
         let seconds = start.elapsed().as_secs_f64();
         let mesh = SurfaceMesh::new(reference.vertices.clone(), reference.faces.clone())?;
@@ -108,7 +130,7 @@ impl Lab {
             seconds,
             used_near: rhombus_cli::calibrate::errors::median(near),
         });
-        self.fits.borrow_mut().insert((name, chains), Rc::clone(&calibrated));
+        self.fits.borrow_mut().insert(key, Rc::clone(&calibrated));
         Ok(calibrated)
     }
 }

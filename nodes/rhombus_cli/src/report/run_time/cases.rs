@@ -12,7 +12,7 @@ use scene::{BodyKind, generate};
 
 use super::{REFERENCE, VERTICES};
 use crate::report::clockwork::{FEWEST, Times, times};
-use crate::report::lab::{Calibrated, MOST_CHAINS};
+use crate::report::lab::{Calibrated, MOST_CHAINS, SHORT_REACH_M};
 use crate::report::section::{Context, Mode};
 use crate::report::subject::{Model, Other, Place, Subject};
 use crate::report::truth::{self, Score, TruthSite};
@@ -23,14 +23,38 @@ pub(super) struct Entry {
     pub(super) method: &'static str,
     /// The publication a peer follows.
     pub(super) citation: &'static str,
-    /// Parallel chains, and whether the stiffness is mapped; `None` for a peer.
-    pub(super) chains: Option<(usize, bool)>,
-    /// The calibration that a user would choose, by the sites used: it stands in the verdicts.
+    /// Parallel chains and how they were calibrated; `None` for a peer.
+    pub(super) chains: Option<(usize, Variety)>,
+    /// The number of chains that a user would choose, by the sites used: it stands in the verdicts.
     pub(super) chosen: bool,
     /// Vertices of the surface.
     pub(super) vertices: usize,
     /// Its numbers, or why it could not be set up.
     pub(super) outcome: Result<Case, String>,
+}
+
+/// How chains were calibrated.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Variety {
+    /// One stiffness for the whole body.
+    Constant,
+    /// With the regional map.
+    Map,
+    /// With the map, and a surface that ends [`SHORT_REACH_M`] from the contact.
+    Short,
+}
+
+impl Variety {
+    const ALL: [Variety; 3] = [Variety::Constant, Variety::Map, Variety::Short];
+
+    /// In tables and legends.
+    pub(super) fn name(self) -> String {
+        match self {
+            Variety::Constant => "constant".to_owned(),
+            Variety::Map => "map".to_owned(),
+            Variety::Short => format!("map, reach {:.0} mm", 1e3 * SHORT_REACH_M),
+        }
+    }
 }
 
 /// Numbers of a method on a mesh.
@@ -70,9 +94,12 @@ struct Stage {
 }
 
 pub(super) fn measure(context: &Context, model_sizes: &[usize], peer_sizes: &[usize]) -> Result<Vec<Entry>> {
-    let calibrated = (1..=MOST_CHAINS)
-        .map(|chains| context.lab.calibrated(REFERENCE, chains, context.progress))
-        .collect::<Result<Vec<_>>>()?;
+    let fits = |short: bool| {
+        (1..=MOST_CHAINS)
+            .map(|chains| context.lab.calibrated_within(REFERENCE, chains, short, context.progress))
+            .collect::<Result<Vec<_>>>()
+    };
+    let (calibrated, short) = (fits(false)?, fits(true)?);
     let near = |index: &usize| calibrated[*index].used_near;
     let chosen = (0..MOST_CHAINS).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or(0);
     let mut sizes: Vec<usize> = model_sizes.iter().chain(peer_sizes).copied().collect();
@@ -84,15 +111,16 @@ pub(super) fn measure(context: &Context, model_sizes: &[usize], peer_sizes: &[us
         context.progress.step(&format!("liver of {vertices} vertices"));
         let stage = Stage::new(context, &calibrated[0].constant, vertices)?;
         if model_sizes.contains(&vertices) {
-            for (index, calibrated) in calibrated.iter().enumerate() {
-                for mapped in [false, true] {
+            for index in 0..MOST_CHAINS {
+                for variety in Variety::ALL {
+                    let fit = if variety == Variety::Short { &short[index] } else { &calibrated[index] };
                     entries.push(Entry {
                         method: MODEL,
                         citation: "",
-                        chains: Some((index + 1, mapped)),
-                        chosen: index == chosen && mapped,
+                        chains: Some((index + 1, variety)),
+                        chosen: index == chosen,
                         vertices,
-                        outcome: Ok(model(&stage, calibrated, mapped)?),
+                        outcome: Ok(model(&stage, fit, variety != Variety::Constant)?),
                     });
                 }
             }

@@ -1,11 +1,10 @@
 //! Figures and tables of error against run time.
 
 use super::VERTICES;
-use super::cases::{Case, Entry};
+use super::cases::{Case, Entry, Variety};
 use crate::report::figure::{Axis, Figure, Line, Marker, Point, Series};
 use crate::report::half_space::name;
-use crate::report::lab::MOST_CHAINS;
-use crate::report::liver::stiffness;
+use crate::report::lab::{MOST_CHAINS, SHORT_REACH_M};
 use crate::report::section::Exhibit;
 use crate::report::table::{Cell, Table};
 use crate::report::truth::Part;
@@ -57,7 +56,7 @@ fn measured(entries: &[Entry]) -> impl Iterator<Item = (&Entry, &Case)> {
 
 fn head(entry: &Entry) -> [Cell; 4] {
     let (chains, kind) = match entry.chains {
-        Some((chains, mapped)) => (chains.into(), stiffness(mapped).into()),
+        Some((chains, variety)) => (chains.into(), variety.name().into()),
         None => (Cell::Empty, Cell::Empty),
     };
     [entry.method.into(), entry.vertices.into(), chains, kind]
@@ -101,8 +100,9 @@ fn error_against_time(quantity: &Quantity, entries: &[Entry]) -> Exhibit {
         title: format!("{}: error against the time of one query", quantity.title),
         caption: format!(
             "Medians over the held-out sites, and over the repeats with bars from quartile to quartile; down and to the left is better. A \
-             curve of the chains runs from 1 to {MOST_CHAINS} chains on one mesh, full line with the stiffness map, dashed with constant \
-             stiffness; a curve of a peer runs over its meshes, coarse to fine. Contact moves between queries."
+             curve of the chains runs from 1 to {MOST_CHAINS} chains on one mesh, full line with the stiffness map (crosses: surface ends {:.0} mm from the contact), dashed with constant \
+             stiffness; a curve of a peer runs over its meshes, coarse to fine. Contact moves between queries.",
+            1e3 * SHORT_REACH_M
         ),
         figure: Some(Figure {
             x: Axis::log("time of one query, force and surface, contact moves [us]"),
@@ -124,9 +124,9 @@ fn series(entries: &[Entry], point: impl Fn(&Case) -> Point) -> Vec<Series> {
     let mut all: Vec<Series> = Vec::new();
     for (entry, case) in measured(entries) {
         let (family, name) = match entry.chains {
-            Some((_, mapped)) => {
+            Some((_, variety)) => {
                 let family = format!("chains, {} vertices", entry.vertices);
-                let name = format!("{family}, {}", stiffness(mapped));
+                let name = format!("{family}, {}", variety.name());
                 (family, name)
             }
             None => (family(entry.method).to_owned(), entry.method.to_owned()),
@@ -141,8 +141,9 @@ fn series(entries: &[Entry], point: impl Fn(&Case) -> Point) -> Vec<Series> {
         });
         let variant = all.iter().filter(|series| series.colour == colour).count();
         let (line, marker) = match entry.chains {
-            Some((_, true)) => (Line::Solid, Marker::Circle),
-            Some((_, false)) => (Line::Dashed, Marker::Ring),
+            Some((_, Variety::Map)) => (Line::Solid, Marker::Circle),
+            Some((_, Variety::Short)) => (Line::Solid, Marker::Cross),
+            Some((_, Variety::Constant)) => (Line::Dashed, Marker::Ring),
             None => (Line::Dashed, MARKERS[variant % MARKERS.len()]),
         };
         all.push(Series { name, points: vec![point(case)], line, marker, colour });
@@ -226,7 +227,7 @@ fn series_over_size(entries: &[Entry]) -> Vec<Series> {
     let mut all: Vec<Series> = Vec::new();
     for (entry, case) in measured(entries) {
         let (name, family, marker) = match entry.chains {
-            Some((chains, true)) if SHOWN.contains(&chains) => {
+            Some((chains, Variety::Map)) if SHOWN.contains(&chains) => {
                 let name = format!("{}, map", name(chains));
                 (name.clone(), name, Marker::Circle)
             }
