@@ -61,7 +61,7 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
          stays\" changes the depth alone, which is where precomputed systems are at their best. Times are medians of single calls \
          after warm-up, with quartiles; all methods of one size are measured one after the other in this run."
             .to_owned(),
-        "Errors are those at the held-out sites of the 5 mm disc against quadratic finite elements on meshes refined towards the disc. On \
+        "Errors are those at the held-out sites of the 5 mm disc pressed 1 mm deep, against quadratic finite elements on meshes refined towards the disc. On \
          other meshes than the reference's, the reference is interpolated at the closest point of its surface; peers touch the \
          vertex nearest to the site, so part of their error on coarse meshes is the mesh's. A peer that steps through time is \
          timed for one step and judged at rest."

@@ -77,6 +77,9 @@ pub(super) struct Case {
 pub(super) const MODEL: &str = "rhombus chains";
 /// How deep sites are pressed when methods are timed, m; a share of it more and less.
 const DEPTH_M: f64 = 0.005;
+/// How deep sites are pressed when methods are judged, m: within the small strains that the references mean, and where the
+/// peers with a nonlinear force are matched.
+const JUDGED_DEPTH_M: f64 = 0.001;
 /// Way of the contact between two queries, m.
 const STRIDE_M: f64 = 0.003;
 /// Queries of the model up to 5000 vertices; on larger meshes in proportion fewer, and peers get the fewest that make a median.
@@ -224,8 +227,8 @@ impl Stage {
         let mut field = vec![DVec3::ZERO; self.body.mesh().vertices().len()];
         let distances = self.sites.iter().map(|site| {
             let place = Place { point: site.point, normal: site.normal, vertex: site.vertex };
-            let force_n = subject.settled(&place, DEPTH_M, &mut field);
-            (site.site, site.distance(DEPTH_M, force_n, &field))
+            let force_n = subject.settled(&place, JUDGED_DEPTH_M, &mut field);
+            (site.site, site.distance(JUDGED_DEPTH_M, force_n, &field))
         });
         let score = Score(distances.collect());
         Case { moved, stayed, force: None, score, setup_s, bytes: subject.bytes() }
