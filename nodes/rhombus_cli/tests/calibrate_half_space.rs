@@ -122,7 +122,7 @@ fn a_file_that_exists_is_replaced_only_when_asked_and_nothing_else_is_left() {
 fn what_makes_no_sense_is_refused_with_what_is_accepted() {
     let folder = Folder::new();
     let cases: [(&[&str], &str); 6] = [
-        (&["--young", "-1", "--poisson", "0.3", "--probe-radius", "0.005"], "--young"),
+        (&["--young", "-1", "--poisson", "0.3", "--probe-radius", "0.005"], "young = -1; accepted"),
         (&["--young", "0", "--poisson", "0.3", "--probe-radius", "0.005"], "young = 0"),
         (&["--young", "1e4", "--poisson", "0.6", "--probe-radius", "0.005"], "greater than -1, up to 0.5"),
         (&["--young", "1e4", "--poisson", "0.3"], "--probe-radius"),
