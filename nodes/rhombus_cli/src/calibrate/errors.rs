@@ -7,7 +7,7 @@ use glam::DVec3;
 use rhombus_chain::{Body, Impression, SurfaceField, SurfaceMesh, SurfacePoint, Tissue};
 
 use super::fitted::FitError;
-use crate::reference::{Reference, ReferenceSite};
+use crate::reference::Reference;
 
 /// Sites of a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,11 +99,10 @@ pub fn at_depth(
                 moved[*vertex as usize] = *displacement / depth_m;
             }
             let force_rel = ((factor * response.force_n - exact_n) / exact_n).abs();
-            Ok(SiteError {
-                site: *site,
-                force_rel,
-                ..surface_error(body.mesh(), solution, contact.point, &moved)
-            })
+            let is_near = |vertex: usize| body.mesh().vertices()[vertex].distance(contact.point) <= NEAR_M;
+            let FieldError { near_rel_l2, full_rel_l2, worst_vertex, worst_rel } =
+                field_error(&solution.displacement, moved.iter().copied(), is_near);
+            Ok(SiteError { site: *site, force_rel, near_rel_l2, full_rel_l2, worst_vertex, worst_rel })
         })
         .collect()
 }
@@ -131,15 +130,33 @@ pub(super) fn at_vertex(mesh: &SurfaceMesh, vertex: u32) -> Option<SurfacePoint>
     })
 }
 
-/// `moved`: displacement of each vertex for each metre of depth.
-fn surface_error(mesh: &SurfaceMesh, solution: &ReferenceSite, contact: DVec3, moved: &[DVec3]) -> SiteError {
+/// How far a field is from the exact one. Every error is a share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldError {
+    /// Relative L2 of the displacement vectors of the vertices that are near.
+    pub near_rel_l2: f64,
+    /// Relative L2 of all displacement vectors.
+    pub full_rel_l2: f64,
+    /// The vertex with the largest error of its displacement vector ...
+    pub worst_vertex: u32,
+    /// ... and that error as a share of the depth.
+    pub worst_rel: f64,
+}
+
+/// Compares two fields, both displacements of all vertices for each metre of depth. `is_near`: whether a vertex is within
+/// [`NEAR_M`] of the contact.
+pub fn field_error(
+    exact: &[DVec3],
+    found: impl IntoIterator<Item = DVec3>,
+    is_near: impl Fn(usize) -> bool,
+) -> FieldError {
     let (mut near, mut near_all, mut full, mut full_all) = (0.0, 0.0, 0.0, 0.0);
     let (mut worst_vertex, mut worst) = (0, 0.0);
-    for (vertex, (exact, found)) in solution.displacement.iter().zip(moved).enumerate() {
-        let (error, all) = ((*found - *exact).length_squared(), exact.length_squared());
+    for (vertex, (exact, found)) in exact.iter().zip(found).enumerate() {
+        let (error, all) = ((found - *exact).length_squared(), exact.length_squared());
         full += error;
         full_all += all;
-        if mesh.vertices()[vertex].distance(contact) <= NEAR_M {
+        if is_near(vertex) {
             near += error;
             near_all += all;
         }
@@ -147,9 +164,7 @@ fn surface_error(mesh: &SurfaceMesh, solution: &ReferenceSite, contact: DVec3, m
             (worst_vertex, worst) = (vertex as u32, error);
         }
     }
-    SiteError {
-        site: 0,
-        force_rel: 0.0,
+    FieldError {
         near_rel_l2: (near / near_all).sqrt(),
         full_rel_l2: (full / full_all).sqrt(),
         worst_vertex,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rhombus_chain::{Body, SurfaceIndex, SurfaceMesh};
-use rhombus_cli::calibrate::errors::NEAR_M;
+use rhombus_cli::calibrate::errors::{self, NEAR_M};
 use rhombus_cli::reference::Reference;
 
 /// What a body answers at one site, at unit depth.
@@ -85,23 +85,14 @@ pub(crate) fn on(
 impl TruthSite {
     /// How far a force (along the normal) and a field at some depth are from this site.
     pub(crate) fn distance(&self, depth_m: f64, force_n: f64, field: &[DVec3]) -> Distance {
-        let (mut error, mut all, mut near_error, mut near_all, mut worst) = (0.0, 0.0, 0.0, 0.0, 0.0_f64);
-        for ((&truth, &found), &near) in self.displacement.iter().zip(field).zip(&self.near) {
-            let (difference, size) = ((found / depth_m - truth).length_squared(), truth.length_squared());
-            error += difference;
-            all += size;
-            if near {
-                near_error += difference;
-                near_all += size;
-            }
-            worst = worst.max(difference);
-        }
+        let found = field.iter().map(|&moved| moved / depth_m);
+        let error = errors::field_error(&self.displacement, found, |vertex| self.near[vertex]);
         let exact_n = self.stiffness_n_per_m * depth_m;
         Distance {
             force: ((force_n - exact_n) / exact_n).abs(),
-            full: (error / all).sqrt(),
-            near: (near_error / near_all).sqrt(),
-            worst: worst.sqrt(),
+            full: error.full_rel_l2,
+            near: error.near_rel_l2,
+            worst: error.worst_rel,
         }
     }
 }
@@ -116,7 +107,7 @@ pub(crate) struct Score(pub(crate) Vec<(usize, Distance)>);
 impl Score {
     /// The median of one part over the sites.
     pub(crate) fn median(&self, part: Part) -> f64 {
-        rhombus_cli::calibrate::errors::median(self.0.iter().map(|(_, distance)| part(distance)).collect())
+        errors::median(self.0.iter().map(|(_, distance)| part(distance)).collect())
     }
 
     /// The largest of one part over the sites.

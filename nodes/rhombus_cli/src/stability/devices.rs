@@ -16,7 +16,7 @@ pub(super) struct Published {
     largest_stiffness_n_per_m: f64,
     /// The rate that was taken for it, Hz.
     pub(super) rate_hz: f64,
-    /// Where both figures come from.
+    /// Where the figures come from.
     pub(super) source: &'static str,
 }
 
@@ -30,8 +30,9 @@ impl Published {
 /// The simulated device of the scene: its damping is `simulated.damping`, its rate `device.rate`.
 pub(super) const SIMULATED: &str = "simulated";
 
-/// Stiffness: the specifications of the CHAI3D library, CPhantomDevices.cpp. Rate: the servo loop of OpenHaptics.
-const PHANTOM: &str = "largest stiffness: CHAI3D (7c76b1f) src/devices/CPhantomDevices.cpp; rate: 1 kHz servo loop of OpenHaptics";
+/// Stiffness: the specifications of the CHAI3D library, CPhantomDevices.cpp. Rate: assumed, no publication was read for it.
+const PHANTOM: &str =
+    "largest stiffness: CHAI3D (7c76b1f) src/devices/CPhantomDevices.cpp; rate: 1 kHz, assumed";
 /// Stiffness: the specifications of the CHAI3D library, CDeltaDevices.cpp. Rate: the sample interval of 0.5 ms that the ROS 2
 /// node set ricmua/ros_force_dimension recommends.
 const FORCE_DIMENSION: &str = "largest stiffness: CHAI3D (7c76b1f) src/devices/CDeltaDevices.cpp; rate: 2 kHz as ros_force_dimension recommends";
