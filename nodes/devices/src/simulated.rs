@@ -4,7 +4,7 @@ mod hand;
 mod plan;
 mod script;
 
-pub use hand::HandSettings;
+pub use hand::{Hand, HandSettings};
 pub use plan::{Motion, Site, press_slide_grasp_pull};
 pub use script::{Phase, Script, ScriptError, Segment, Target};
 
@@ -12,7 +12,6 @@ use glam::{DQuat, DVec3};
 use rhombus_chain::Pose;
 
 use crate::{Device, DeviceError, DeviceLimits, DeviceState, Workspace};
-use hand::Hand;
 
 /// The device that the reference experiment used: a 6-DOF delta, 360 mm in diameter, 300 mm high, 20 N.
 pub const LIMITS: DeviceLimits =

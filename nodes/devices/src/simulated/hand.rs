@@ -41,14 +41,14 @@ impl HandSettings {
     }
 }
 
-/// A hand in motion.
+/// A hand in motion: the mechanics that the simulated device and the doubles of real devices share.
 ///
 /// With the target at `p`, moving at `w`, and the device pushing with `f`, the hand at `x`, moving at `v`, obeys
 /// `m v' = k (p - x) + c (w - v) + f`. For a step in which `p`, `w` and `f` stand still the distance from the
 /// equilibrium `p + (c w + f)/k` and the velocity are carried over by a constant 2 x 2 matrix, the exponential of the
 /// system. So every step is exact, and no stiffness, mass or damping makes the integration unstable.
 #[derive(Clone, Debug)]
-pub(crate) struct Hand {
+pub struct Hand {
     settings: HandSettings,
     steps: u32,
     step_s: f64,
@@ -59,7 +59,10 @@ pub(crate) struct Hand {
 
 impl Hand {
     /// A hand at rest at `position`, advanced by `period_s` > 0 at a time.
-    pub(crate) fn new(settings: HandSettings, period_s: f64, position: DVec3) -> Result<Hand, DeviceError> {
+    ///
+    /// # Errors
+    /// [`DeviceError::Setting`] names the parameter that is no mechanics.
+    pub fn new(settings: HandSettings, period_s: f64, position: DVec3) -> Result<Hand, DeviceError> {
         settings.check()?;
         if !(period_s.is_finite() && period_s > 0.0 && period_s <= 1.0) {
             return Err(DeviceError::Setting {
@@ -84,21 +87,18 @@ impl Hand {
         })
     }
 
-    pub(crate) fn position(&self) -> DVec3 {
+    /// Where the handle is, device frame, m. RT safe.
+    pub fn position(&self) -> DVec3 {
         self.position
     }
 
-    pub(crate) fn velocity(&self) -> DVec3 {
+    /// Its derivative, m/s. RT safe.
+    pub fn velocity(&self) -> DVec3 {
         self.velocity
     }
 
     /// One period under a constant force; `target_at` gives the target at a time since the period began, s. RT safe.
-    pub(crate) fn advance(
-        &mut self,
-        force_n: DVec3,
-        workspace: &Workspace,
-        target_at: impl Fn(f64) -> Target,
-    ) {
+    pub fn advance(&mut self, force_n: DVec3, workspace: &Workspace, target_at: impl Fn(f64) -> Target) {
         let HandSettings { stiffness_n_per_m, damping_n_s_per_m, .. } = self.settings;
         let [[ee, ev], [ve, vv]] = self.transition;
         for step in 0..self.steps {
