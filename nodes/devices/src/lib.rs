@@ -15,9 +15,11 @@
 
 mod backend;
 mod device;
+mod error;
 mod force_choice;
 mod latest;
 mod motor_loop;
+mod operating;
 mod realtime;
 mod samples;
 #[cfg(feature = "simulated")]
@@ -26,9 +28,14 @@ mod stamp_clock;
 mod tick;
 
 pub use backend::Backend;
-pub use device::{Device, DeviceError, DeviceLimits, DeviceState, Workspace};
+pub use device::{
+    Description, Device, DeviceLimits, DeviceState, Found, MAX_JOINTS, MAX_STATUS, MotorsOff, Workspace,
+    Wrench,
+};
+pub use error::DeviceError;
 pub use force_choice::{ForceOrigin, ForceSource, LawCommand, ServoCommand};
 pub use motor_loop::{MotorError, MotorLoop, MotorSettings};
+pub use operating::{OperatingState, StateCommand};
 pub use realtime::{Scheduling, monotonic_ns};
 pub use samples::{SampleReceiver, SampleSender, samples};
 pub use tick::{Counts, Sample};

@@ -87,9 +87,10 @@ impl MotorLoop {
         if !(10.0..=4000.0).contains(&rate_hz) {
             return Err(MotorError::Rate { rate_hz });
         }
-        let device_n = device.limits().max_force_n;
+        let description = device.description();
+        let device_n = description.limits.max_force_n.unwrap_or(f64::MIN_POSITIVE);
         if !(device_n.is_finite() && device_n > 0.0) {
-            return Err(MotorError::Limits { device: device.name().to_owned(), max_force_n: device_n });
+            return Err(MotorError::Limits { device: description.backend.to_owned(), max_force_n: device_n });
         }
         let (law_sender, laws) = latest();
         let (servo_sender, servo) = latest();

@@ -11,11 +11,15 @@ pub use script::{Phase, Script, ScriptError, Segment, Target};
 use glam::{DQuat, DVec3};
 use rhombus_chain::Pose;
 
-use crate::{Device, DeviceError, DeviceLimits, DeviceState, Workspace};
+use crate::{Description, Device, DeviceError, DeviceLimits, DeviceState, Workspace, Wrench};
 
 /// The device that the reference experiment used: a 6-DOF delta, 360 mm in diameter, 300 mm high, 20 N.
-pub const LIMITS: DeviceLimits =
-    DeviceLimits { max_force_n: 20.0, workspace: Workspace { radius_m: 0.18, height_m: 0.3 } };
+pub const LIMITS: DeviceLimits = DeviceLimits {
+    max_force_n: Some(20.0),
+    max_torque_n_m: None,
+    max_gripper_force_n: None,
+    workspace: Workspace { centre: DVec3::ZERO, radius_m: 0.18, height_m: 0.3 },
+};
 
 /// What a simulated device is made from.
 #[derive(Clone, Debug)]
@@ -33,10 +37,12 @@ pub struct Settings {
 /// for bit, however late the loop is.
 #[derive(Clone, Debug)]
 pub struct SimulatedDevice {
+    description: Description,
     script: Script,
     period_s: f64,
     hand: Hand,
     commands: u64,
+    enabled: bool,
 }
 
 impl SimulatedDevice {
@@ -47,7 +53,20 @@ impl SimulatedDevice {
     pub fn open(settings: Settings) -> Result<SimulatedDevice, DeviceError> {
         let Settings { hand, script, period_s } = settings;
         let hand = Hand::new(hand, period_s, script.at(0.0).position)?;
-        Ok(SimulatedDevice { script, period_s, hand, commands: 0 })
+        let description = Description {
+            backend: "simulated",
+            model: "scripted hand on a delta".to_owned(),
+            serial: String::new(),
+            firmware: String::new(),
+            limits: LIMITS,
+            buttons: Vec::new(),
+            joints: Vec::new(),
+            has_gripper: true,
+            needs_homing: false,
+            watchdog: None,
+            status_names: &[],
+        };
+        Ok(SimulatedDevice { description, script, period_s, hand, commands: 0, enabled: false })
     }
 
     /// What the hand is doing. RT safe.
@@ -61,33 +80,35 @@ impl SimulatedDevice {
 }
 
 impl Device for SimulatedDevice {
-    fn name(&self) -> &str {
-        "simulated"
-    }
-
-    fn limits(&self) -> DeviceLimits {
-        LIMITS
+    fn description(&self) -> &Description {
+        &self.description
     }
 
     fn read(&mut self) -> Result<DeviceState, DeviceError> {
+        let pose = Pose { translation: self.hand.position(), rotation: DQuat::IDENTITY };
         Ok(DeviceState {
-            pose: Pose { translation: self.hand.position(), rotation: DQuat::IDENTITY },
             linear_velocity_m_per_s: self.hand.velocity(),
-            angular_velocity_rad_per_s: DVec3::ZERO,
             gripper_rad: Some(self.target().gripper_rad),
-            buttons: 0,
             device_time_ns: (self.time_s() * 1e9).round() as u64,
+            ..DeviceState::at_rest(pose)
         })
     }
 
-    fn command(&mut self, force_n: DVec3) -> Result<(), DeviceError> {
+    fn command(&mut self, wrench: &Wrench) -> Result<(), DeviceError> {
+        let force_n = if self.enabled { wrench.force_n } else { DVec3::ZERO };
         let (script, start_s) = (&self.script, self.time_s());
         self.hand.advance(force_n, &LIMITS.workspace, |since_s| script.at(start_s + since_s));
         self.commands += 1;
         Ok(())
     }
 
+    fn enable(&mut self) -> Result<(), DeviceError> {
+        self.enabled = true;
+        Ok(())
+    }
+
     fn disable(&mut self) -> Result<(), DeviceError> {
+        self.enabled = false;
         Ok(())
     }
 }
@@ -100,7 +121,9 @@ mod tests {
         let site = |x| Site { point: DVec3::new(x, 0.0, 0.0), normal: DVec3::Z, slide: vec![] };
         let script = press_slide_grasp_pull(&[site(-0.02), site(0.02)], &Motion::default()).unwrap();
         let hand = HandSettings { mass_kg: 0.3, stiffness_n_per_m: 500.0, damping_n_s_per_m: 20.0 };
-        SimulatedDevice::open(Settings { hand, script, period_s: 1e-3 }).unwrap()
+        let mut device = SimulatedDevice::open(Settings { hand, script, period_s: 1e-3 }).unwrap();
+        device.enable().unwrap();
+        device
     }
 
     /// The depth in a wall z < 0 felt by the default probe, and the wall's force.
@@ -117,7 +140,7 @@ mod tests {
             let state = device.read().unwrap();
             let (depth_m, force_n) = wall(&state, 300.0);
             deepest_m = deepest_m.max(depth_m);
-            device.command(force_n).unwrap();
+            device.command(&Wrench::of_force(force_n)).unwrap();
         }
         // Static balance of 500 N/m against 300 N/m: 5/8 of the intended depth.
         let balance_m = Motion::default().depth_m * 500.0 / 800.0;
@@ -131,7 +154,7 @@ mod tests {
             let mut states = Vec::new();
             for _ in 0..3000 {
                 let state = device.read().unwrap();
-                device.command(wall(&state, 250.0).1).unwrap();
+                device.command(&Wrench::of_force(wall(&state, 250.0).1)).unwrap();
                 states.push(state);
             }
             states

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use glam::DVec3;
 
 use crate::force_choice::{Commands, ForceOrigin, Moment};
-use crate::{Device, DeviceError, DeviceState};
+use crate::{Device, DeviceError, DeviceState, Wrench};
 
 /// What one period produced.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,12 +120,12 @@ impl Ticker {
         let state = self.device.read()?;
         if !state.is_finite() {
             Counters::add(&self.counters.unusable_readings, 1);
-            self.device.command(DVec3::ZERO)?;
+            self.device.command(&Wrench::ZERO)?;
             return Ok(None);
         }
         let choice = self.commands.choose(state.pose.translation, now);
         let force_n = self.safe_force_n(choice.force_n);
-        self.device.command(force_n)?;
+        self.device.command(&Wrench::of_force(force_n))?;
         Ok(Some(Sample {
             stamp_ns: now.stamp_ns,
             monotonic_ns: now.monotonic_ns,
@@ -141,7 +141,7 @@ impl Ticker {
     /// # Errors
     /// What the device says.
     pub(crate) fn off(&mut self) -> Result<(), DeviceError> {
-        let commanded = self.device.command(DVec3::ZERO);
+        let commanded = self.device.command(&Wrench::ZERO);
         self.device.disable().and(commanded)
     }
 
@@ -153,7 +153,11 @@ impl Ticker {
         }
         // A limit that is not a number is no permission (and min would pass over it).
         let user_n = self.limit.get();
-        let limit_n = if user_n > 0.0 { user_n.min(self.device.limits().max_force_n) } else { 0.0 };
+        let limit_n = if user_n > 0.0 {
+            user_n.min(self.device.description().limits.max_force_n.unwrap_or(0.0))
+        } else {
+            0.0
+        };
         // By the largest component first, so that the square of a huge force does not overflow.
         let largest_n = force_n.abs().max_element();
         let size = if largest_n > 0.0 { largest_n * (force_n / largest_n).length() } else { 0.0 };
@@ -178,7 +182,7 @@ impl Drop for Ticker {
 pub(crate) mod tests {
     use super::*;
     use crate::latest::{Sender, latest};
-    use crate::{DeviceLimits, ForceSource, ServoCommand, Workspace};
+    use crate::{Description, DeviceLimits, ForceSource, ServoCommand, Workspace};
     use glam::DQuat;
     use proptest::prelude::*;
     use rhombus_chain::Pose;
@@ -197,39 +201,54 @@ pub(crate) mod tests {
     }
 
     fn still(translation: DVec3) -> DeviceState {
-        DeviceState {
-            pose: Pose { translation, rotation: DQuat::IDENTITY },
-            linear_velocity_m_per_s: DVec3::ZERO,
-            angular_velocity_rad_per_s: DVec3::ZERO,
-            gripper_rad: None,
-            buttons: 0,
-            device_time_ns: 0,
-        }
+        DeviceState::at_rest(Pose { translation, rotation: DQuat::IDENTITY })
     }
 
     /// Writes down every force that reached its motors; `None` is "disabled".
     struct Recorder {
+        description: Description,
         at: DVec3,
         motors: Arc<Mutex<Vec<Option<DVec3>>>>,
     }
 
     impl Device for Recorder {
-        fn name(&self) -> &str {
-            "recorder"
-        }
-        fn limits(&self) -> DeviceLimits {
-            DeviceLimits { max_force_n: 20.0, workspace: Workspace { radius_m: 0.1, height_m: 0.1 } }
+        fn description(&self) -> &Description {
+            &self.description
         }
         fn read(&mut self) -> Result<DeviceState, DeviceError> {
             Ok(still(self.at))
         }
-        fn command(&mut self, force_n: DVec3) -> Result<(), DeviceError> {
-            self.motors.lock().unwrap().push(Some(force_n));
+        fn command(&mut self, wrench: &Wrench) -> Result<(), DeviceError> {
+            self.motors.lock().unwrap().push(Some(wrench.force_n));
+            Ok(())
+        }
+        fn enable(&mut self) -> Result<(), DeviceError> {
             Ok(())
         }
         fn disable(&mut self) -> Result<(), DeviceError> {
             self.motors.lock().unwrap().push(None);
             Ok(())
+        }
+    }
+
+    fn description() -> Description {
+        Description {
+            backend: "recorder",
+            model: String::new(),
+            serial: String::new(),
+            firmware: String::new(),
+            limits: DeviceLimits {
+                max_force_n: Some(20.0),
+                max_torque_n_m: None,
+                max_gripper_force_n: None,
+                workspace: Workspace { centre: DVec3::ZERO, radius_m: 0.1, height_m: 0.1 },
+            },
+            buttons: Vec::new(),
+            joints: Vec::new(),
+            has_gripper: false,
+            needs_homing: false,
+            watchdog: None,
+            status_names: &[],
         }
     }
 
@@ -245,7 +264,7 @@ pub(crate) mod tests {
         let ((_, laws), (servo_sender, servo)) = (latest(), latest());
         let motors = Arc::new(Mutex::new(Vec::new()));
         let (limit, counters) = (Arc::new(ForceLimit::new(5.0)), Arc::new(Counters::default()));
-        let device = Box::new(Recorder { at, motors: motors.clone() });
+        let device = Box::new(Recorder { description: description(), at, motors: motors.clone() });
         let commands = Commands { source: ForceSource::ServoForce, laws, servo };
         let ticker = Ticker::new(device, commands, limit.clone(), counters.clone());
         Bench { ticker, servo: servo_sender, limit, counters, motors }

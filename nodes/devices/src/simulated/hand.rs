@@ -21,11 +21,11 @@ pub struct HandSettings {
 
 impl HandSettings {
     fn check(&self) -> Result<(), DeviceError> {
-        let positive = |name, value: f64, accepted| {
+        let positive = |name, value: f64, accepted: &str| {
             if value.is_finite() && value > 0.0 {
                 Ok(())
             } else {
-                Err(DeviceError::Setting { name, value, accepted })
+                Err(DeviceError::Setting { name, value: value.to_string(), accepted: accepted.to_owned() })
             }
         };
         positive("simulated.mass", self.mass_kg, "a finite number > 0 [kg]")?;
@@ -33,8 +33,8 @@ impl HandSettings {
         if !(self.damping_n_s_per_m.is_finite() && self.damping_n_s_per_m >= 0.0) {
             return Err(DeviceError::Setting {
                 name: "simulated.damping",
-                value: self.damping_n_s_per_m,
-                accepted: "a finite number >= 0 [N s/m]",
+                value: self.damping_n_s_per_m.to_string(),
+                accepted: "a finite number >= 0 [N s/m]".to_owned(),
             });
         }
         Ok(())
@@ -67,8 +67,8 @@ impl Hand {
         if !(period_s.is_finite() && period_s > 0.0 && period_s <= 1.0) {
             return Err(DeviceError::Setting {
                 name: "simulated period",
-                value: period_s,
-                accepted: "more than 0 and at most 1 [s]",
+                value: period_s.to_string(),
+                accepted: "more than 0 and at most 1 [s]".to_owned(),
             });
         }
         let steps = (period_s / LONGEST_STEP_S).ceil().max(1.0);
@@ -114,17 +114,18 @@ impl Hand {
 
     /// The mechanical stops: the handle does not leave the workspace and loses its speed outward.
     fn stop_at_the_edge(&mut self, workspace: &Workspace) {
-        let half_height = 0.5 * workspace.height_m;
-        if self.position.z.abs() > half_height {
-            let side = self.position.z.signum();
-            self.position.z = side * half_height;
+        let (centre, half_height) = (workspace.centre, 0.5 * workspace.height_m);
+        let above = self.position.z - centre.z;
+        if above.abs() > half_height {
+            let side = above.signum();
+            self.position.z = centre.z + side * half_height;
             self.velocity.z = side * (side * self.velocity.z).min(0.0);
         }
-        let across = self.position.truncate();
+        let across = self.position.truncate() - centre.truncate();
         let distance = across.length();
         if distance > workspace.radius_m {
             let outward = across / distance;
-            let at_edge = outward * workspace.radius_m;
+            let at_edge = centre.truncate() + outward * workspace.radius_m;
             let outward_speed = self.velocity.truncate().dot(outward).max(0.0);
             let remaining = self.velocity.truncate() - outward * outward_speed;
             self.position = at_edge.extend(self.position.z);
@@ -163,7 +164,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const WORKSPACE: Workspace = Workspace { radius_m: 0.18, height_m: 0.3 };
+    const WORKSPACE: Workspace = Workspace { centre: DVec3::ZERO, radius_m: 0.18, height_m: 0.3 };
     const HAND: HandSettings =
         HandSettings { mass_kg: 0.3, stiffness_n_per_m: 500.0, damping_n_s_per_m: 20.0 };
 
@@ -267,7 +268,7 @@ mod tests {
             let settings = HandSettings {
                 mass_kg: ten(mass), stiffness_n_per_m: ten(stiffness), damping_n_s_per_m: ten(damping),
             };
-            let wide = Workspace { radius_m: 1e9, height_m: 1e9 };
+            let wide = Workspace { centre: DVec3::ZERO, radius_m: 1e9, height_m: 1e9 };
             let mut hand = Hand::new(settings, 1.0 / rate_hz, DVec3::new(0.01, 0.0, 0.0)).unwrap();
             hand.velocity = DVec3::X * velocity;
             let energy = |hand: &Hand| {
