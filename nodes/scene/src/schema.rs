@@ -3,11 +3,14 @@
 //! What checks a YAML file, what a node declares, what `rhombus parameters` prints and what the README shows all come
 //! from here. One file for each group; a new parameter is one more row.
 
+mod backends;
 mod body;
 mod chains;
 mod check;
 mod device;
 mod recording;
+mod row;
+mod safety;
 mod session;
 mod simulated;
 mod surface;
@@ -172,6 +175,8 @@ pub fn schema() -> impl Iterator<Item = &'static ParameterSpec> {
         surface::PARAMETERS,
         session::PARAMETERS,
         device::PARAMETERS,
+        safety::PARAMETERS,
+        backends::PARAMETERS,
         simulated::PARAMETERS,
         visualization::PARAMETERS,
         recording::PARAMETERS,

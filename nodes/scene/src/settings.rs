@@ -85,8 +85,24 @@ pub struct DeviceSettings {
     pub scene_from_device: Pose,
     /// Motion in the scene for each metre of motion of the device.
     pub motion_scale: f64,
+    /// Which of several connected devices; empty: the only one.
+    pub serial: String,
     /// Rate of the motor loop, Hz.
     pub rate_hz: f64,
+    /// Rate of the published poses, Hz.
+    pub pose_rate_hz: f64,
+    /// CPU that the motor loop stays on; none: any.
+    pub cpu: Option<usize>,
+    /// Motors on at the start.
+    pub enable_at_start: bool,
+    /// The device carries its own weight, where it can.
+    pub gravity_compensation: bool,
+    /// `body/` wrenches have the axes of the device frame.
+    pub body_cf_absolute: bool,
+    /// Largest torque on the hand, N m.
+    pub max_torque_n_m: f64,
+    /// Largest force of the gripper on the fingers, N.
+    pub max_gripper_force_n: f64,
     /// Largest force on the hand, N.
     pub max_force_n: f64,
     /// What the motors follow: `contact_law` or `servo_cf`.
@@ -112,6 +128,14 @@ pub struct SimulatedSettings {
     pub slide_m: f64,
     /// Time for a pair of sites, s.
     pub period_s: f64,
+    /// Standard deviation of the noise on measured positions, m.
+    pub noise_m: f64,
+    /// Step of measured positions, m.
+    pub quantisation_m: f64,
+    /// Share of readings that repeat the one before.
+    pub dropout: f64,
+    /// Age of readings, s.
+    pub latency_s: f64,
 }
 
 /// `visualization.*`.

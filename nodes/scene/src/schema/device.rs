@@ -1,5 +1,6 @@
 //! `device.*`: the haptic device, whatever its backend.
 
+use super::row::{integer, number, switch, text};
 use super::{Check, DefaultValue, Kind, Length, Node, ParameterSpec};
 
 const DRIVER: &[Node] = &[Node::HapticDevice];
@@ -12,12 +13,13 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         kind: Kind::String,
         unit: "",
         default: DefaultValue::String("simulated"),
-        check: Check::OneOf(&["simulated"]),
+        check: Check::OneOf(&["simulated", "force_dimension", "haply", "serial", "spacemouse"]),
         length: Length::Any,
         live: false,
         owners: DRIVER,
         help: "What stands behind the driver; simulated is a scripted hand that feels the force.",
     },
+    text("device.serial", "", "Which of several connected devices: its serial number; \"\": the only one."),
     ParameterSpec {
         name: "device.frame_id",
         kind: Kind::String,
@@ -60,8 +62,27 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         length: Length::Any,
         live: false,
         owners: DRIVER,
-        help: "Rate of the motor loop and of measured_cp.",
+        help: "Rate of the motor loop.",
     },
+    number(
+        "device.pose_rate",
+        "Hz",
+        1000.0,
+        Check::Within(1.0, 4000.0),
+        "Rate of measured_cp, measured_cv and measured_cf; never more than device.rate.",
+    ),
+    integer("device.cpu", -1, Check::Within(-1.0, 1023.0), "CPU that the motor loop stays on; -1: any."),
+    switch(
+        "device.enable_at_start",
+        true,
+        "Motors on at the start; otherwise a state command switches them on.",
+    ),
+    switch("device.gravity_compensation", true, "The device carries its own weight, where it can."),
+    switch(
+        "device.body_cf_absolute",
+        false,
+        "body/ wrenches have the axes of the device frame, not of the handle; body/set_cf_orientation_absolute changes it.",
+    ),
     ParameterSpec {
         name: "device.max_force",
         kind: Kind::Double,
@@ -73,6 +94,20 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         owners: DRIVER,
         help: "The force on the hand is never larger than this.",
     },
+    number(
+        "device.max_torque",
+        "N m",
+        0.5,
+        Check::Within(0.0, 10.0),
+        "The torque on the hand is never larger than this.",
+    ),
+    number(
+        "device.max_gripper_force",
+        "N",
+        8.0,
+        Check::Within(0.0, 100.0),
+        "The force of the gripper on the fingers is never larger than this.",
+    ),
     ParameterSpec {
         name: "device.force_source",
         kind: Kind::String,

@@ -1,26 +1,7 @@
 //! `simulated.*`: the scripted hand of the simulated backend.
 
-use super::{Check, DefaultValue, Kind, Length, Node, ParameterSpec};
-
-const fn number(
-    name: &'static str,
-    unit: &'static str,
-    default: f64,
-    check: Check,
-    help: &'static str,
-) -> ParameterSpec {
-    ParameterSpec {
-        name,
-        kind: Kind::Double,
-        unit,
-        default: DefaultValue::Double(default),
-        check,
-        length: Length::Any,
-        live: false,
-        owners: &[Node::HapticDevice],
-        help,
-    }
-}
+use super::row::number;
+use super::{Check, ParameterSpec};
 
 pub(super) const PARAMETERS: &[ParameterSpec] = &[
     number(
@@ -71,5 +52,33 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         12.0,
         Check::Within(0.1, 3600.0),
         "Time for a press and a slide at one site and a grasp and a pull at the next; the motion repeats.",
+    ),
+    number(
+        "simulated.noise",
+        "m",
+        0.0,
+        Check::Within(0.0, 0.01),
+        "Standard deviation of the noise on measured positions.",
+    ),
+    number(
+        "simulated.quantisation",
+        "m",
+        0.0,
+        Check::Within(0.0, 0.01),
+        "Measured positions are multiples of this; 0 measures exactly.",
+    ),
+    number(
+        "simulated.dropout",
+        "",
+        0.0,
+        Check::WithinBelow(0.0, 1.0),
+        "Share of readings that repeat the one before.",
+    ),
+    number(
+        "simulated.latency",
+        "s",
+        0.0,
+        Check::Within(0.0, 1.0),
+        "Readings are this old, in whole periods of the motor loop.",
     ),
 ];
