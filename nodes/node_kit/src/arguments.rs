@@ -94,6 +94,28 @@ impl RosArguments {
         format!("{namespace}/{}", target(["__node", "__name"]).unwrap_or(default_name))
     }
 
+    /// The name that a topic of the node has in the graph: expanded, then remapped, as rcl does it.
+    pub(crate) fn topic_in_graph(&self, name: &str, full_node_name: &str) -> String {
+        let (namespace, node) = full_node_name.rsplit_once('/').unwrap_or_default();
+        let expand = |name: &str| match (name.strip_prefix('~'), name.starts_with('/')) {
+            (Some(rest), _) => format!("{full_node_name}{rest}"),
+            (None, true) => name.to_owned(),
+            (None, false) => format!("{namespace}/{name}"),
+        };
+        let own = expand(name);
+        let remapped = self.remappings.iter().find_map(|remapping| {
+            let (from, to) = remapping.split_once(":=")?;
+            let from = from.strip_prefix("rostopic://").unwrap_or(from);
+            let from = match from.split_once(':') {
+                Some((of, from)) if of == node => from,
+                Some(_) => return None,
+                None => from,
+            };
+            (expand(from) == own).then(|| expand(to))
+        });
+        remapped.unwrap_or(own)
+    }
+
     /// Where the parameters came from, for error messages: the files, or the command line.
     pub(crate) fn source(&self) -> String {
         if self.parameter_files.is_empty() {
@@ -127,6 +149,21 @@ mod tests {
         let remapped = parse("node --ros-args -r __ns:=/left --remap deformation:__node:=model");
         assert_eq!(remapped.full_name("deformation"), "/left/model");
         assert_eq!(remapped.full_name("visualization"), "/left/visualization");
+    }
+
+    #[test]
+    fn a_topic_in_the_graph_has_its_namespace_and_the_first_remapping_that_fits() {
+        let plain = parse("node");
+        assert_eq!(plain.topic_in_graph("servo_cf", "/driver"), "/servo_cf");
+        assert_eq!(plain.topic_in_graph("body/servo_cf", "/left/driver"), "/left/body/servo_cf");
+        assert_eq!(plain.topic_in_graph("~/event", "/left/driver"), "/left/driver/event");
+        let remapped = parse(
+            "node --ros-args -r __ns:=/left -r other:servo_cf:=/no -r driver:servo_cf:=master/servo_cf \
+             -r servo_cf:=/late -r /left/body/servo_cf:=/tip",
+        );
+        assert_eq!(remapped.topic_in_graph("servo_cf", "/left/driver"), "/left/master/servo_cf");
+        assert_eq!(remapped.topic_in_graph("body/servo_cf", "/left/driver"), "/tip");
+        assert_eq!(remapped.topic_in_graph("contact_law", "/left/driver"), "/left/contact_law");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use r2r::rosgraph_msgs::msg::Clock;
-use r2r::{QosProfile, WrappedTypesupport};
+use r2r::{QosProfile, WrappedServiceTypeSupport, WrappedTypesupport};
 use scene::{Node, Parameters, Value};
 
 use crate::arguments::RosArguments;
@@ -12,8 +12,11 @@ use crate::diagnostics::{Diagnostics, Status};
 use crate::log::Log;
 use crate::parameters::{self, Change, ParameterServices, Store, TogetherCheck};
 use crate::security::Transport;
+use crate::services::ServiceName;
 use crate::topics::Topic;
-use crate::{Inbox, PublishError, Publisher, Shutdown, StartError, context, frames, shutdown, topics};
+use crate::{
+    Inbox, PublishError, Publisher, Service, Shutdown, StartError, context, frames, shutdown, topics,
+};
 
 /// Longest wait of one turn. A spin cannot be interrupted, so this bounds how late a signal is seen.
 const LONGEST_WAIT: Duration = Duration::from_millis(50);
@@ -32,6 +35,7 @@ pub struct NodeKit {
     shutdown: Shutdown,
     clock: NodeClock,
     simulated_time: Option<Inbox<Clock>>,
+    arguments: RosArguments,
     full_name: String,
     namespace: String,
     node: r2r::Node,
@@ -77,6 +81,7 @@ impl NodeKit {
             shutdown,
             clock,
             simulated_time: None,
+            arguments,
             full_name,
             namespace,
             node,
@@ -197,6 +202,33 @@ impl NodeKit {
             Ok(stream) => Ok(Inbox::new(stream)),
             Err(source) => Err(StartError::Endpoint { what: "subscription", name, source }),
         }
+    }
+
+    /// Offer a service.
+    ///
+    /// # Errors
+    /// rcl refuses, for instance because the name is none.
+    pub fn serve<S>(&mut self, service: &ServiceName<S>) -> Result<Service<S>, StartError>
+    where
+        S: WrappedServiceTypeSupport + 'static,
+    {
+        Service::new(&mut self.node, service)
+    }
+
+    /// The nodes that publish a topic, each with its full name, a node with two publishers twice. A node of which only
+    /// the publisher has been discovered so far is "a node not yet known". Asks the middleware's memory of the graph:
+    /// fit for a few times a second.
+    ///
+    /// # Errors
+    /// What rcl says.
+    pub fn publishers_of<M>(&self, topic: &Topic<M>, sub_namespace: &str) -> Result<Vec<String>, r2r::Error> {
+        let name = self.arguments.topic_in_graph(&topic.name_in(sub_namespace), &self.full_name);
+        let publishers = self.node.get_publishers_info_by_topic(&name, false)?;
+        let full_names = publishers.into_iter().map(|publisher| match publisher.node_name.as_str() {
+            "" | "_NODE_NAME_UNKNOWN_" => "a node not yet known".to_owned(),
+            name => format!("{}/{name}", publisher.node_namespace.trim_end_matches('/')),
+        });
+        Ok(full_names.collect())
     }
 
     /// Subscribe to serialized messages (CDR) of a type given as "package/msg/Name", for recording.

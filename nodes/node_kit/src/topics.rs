@@ -6,41 +6,44 @@
 //! Three kinds of queue. What must all arrive, in order: reliable, 1000 deep on both sides. What is only interesting
 //! while fresh: reliable, a few deep, so that it can also be recorded. What a late joiner needs: transient local.
 
+use std::borrow::Cow;
 use std::marker::PhantomData;
 
 use r2r::QosProfile;
+use r2r::crtk_msgs::msg::{OperatingState, StringStamped};
 use r2r::diagnostic_msgs::msg::DiagnosticArray;
 use r2r::geometry_msgs::msg::{PoseStamped, TwistStamped, WrenchStamped};
+use r2r::lifecycle_msgs::msg::TransitionEvent;
 use r2r::rcl_interfaces::msg::{Log, ParameterEvent};
 use r2r::rhombus_haptics_msgs::msg::{ContactLaw, ContactState, SurfaceDisplacement};
 use r2r::rosgraph_msgs::msg::Clock;
 use r2r::sensor_msgs::msg::{JointState, Joy};
 use r2r::shape_msgs::msg::Mesh;
-use r2r::std_msgs::msg::Bool;
+use r2r::std_msgs::msg::{Bool, Empty};
 use r2r::tf2_msgs::msg::TFMessage;
 use r2r::visualization_msgs::msg::MarkerArray;
 
 /// A topic: name, message type and quality of service for both ends.
 pub struct Topic<M> {
-    name: &'static str,
+    name: Cow<'static, str>,
     qos: QosProfile,
     message: PhantomData<fn() -> M>,
 }
 
 impl<M> Topic<M> {
     const fn new(name: &'static str, qos: QosProfile) -> Topic<M> {
-        Topic { name, qos, message: PhantomData }
+        Topic { name: Cow::Borrowed(name), qos, message: PhantomData }
     }
 
     /// The name as nodes know it before namespaces and remappings.
-    pub const fn name(&self) -> &'static str {
-        self.name
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// The name in the sub-namespace of one device; "" is the node's own namespace.
     pub fn name_in(&self, sub_namespace: &str) -> String {
         match sub_namespace.trim_end_matches('/') {
-            "" => self.name.to_owned(),
+            "" => self.name().to_owned(),
             sub_namespace => format!("{sub_namespace}/{}", self.name),
         }
     }
@@ -63,8 +66,14 @@ const fn latched(depth: usize) -> QosProfile {
 pub const MEASURED_CP: Topic<PoseStamped> = Topic::new("measured_cp", reliable(1000));
 /// Velocity of the device's handle: device.
 pub const MEASURED_CV: Topic<TwistStamped> = Topic::new("measured_cv", reliable(1000));
-/// Force that the motors were told to apply: device.
+/// Positions of the device's joints, rad or m: device, where joints are reported.
+pub const MEASURED_JS: Topic<JointState> = Topic::new("measured_js", reliable(1000));
+/// Wrench that the motors were told to apply to the hand, in the device's base axes: device.
 pub const MEASURED_CF: Topic<WrenchStamped> = Topic::new("measured_cf", reliable(1000));
+/// The same as `measured_cf`.
+pub const SPATIAL_MEASURED_CF: Topic<WrenchStamped> = Topic::new("spatial/measured_cf", reliable(1000));
+/// The same wrench in the axes of the handle, or in base axes after `body/set_cf_orientation_absolute`: device.
+pub const BODY_MEASURED_CF: Topic<WrenchStamped> = Topic::new("body/measured_cf", reliable(1000));
 /// Opening of the gripper in position\[0\], rad: device to deformation.
 pub const GRIPPER_MEASURED_JS: Topic<JointState> = Topic::new("gripper/measured_js", reliable(1000));
 /// Hold the surface while true: anyone to deformation.
@@ -73,6 +82,29 @@ pub const GRASP: Topic<Bool> = Topic::new("grasp", reliable(10));
 pub const CLUTCH: Topic<Joy> = Topic::new("clutch", latched(10));
 /// Force on the hand, one for each pose, with the pose's stamp and frame: deformation to device.
 pub const SERVO_CF: Topic<WrenchStamped> = Topic::new("servo_cf", reliable(1000));
+/// Wrench on the hand in the device's base axes: anyone to device.
+pub const SPATIAL_SERVO_CF: Topic<WrenchStamped> = Topic::new("spatial/servo_cf", reliable(100));
+/// Wrench on the hand in the axes of the handle, or in base axes after `body/set_cf_orientation_absolute`: anyone to device.
+pub const BODY_SERVO_CF: Topic<WrenchStamped> = Topic::new("body/servo_cf", reliable(100));
+/// Force of the gripper on the fingers in effort\[0\], positive opens: anyone to device, where the gripper has a motor.
+pub const GRIPPER_SERVO_JF: Topic<JointState> = Topic::new("gripper/servo_jf", reliable(100));
+/// Whether `body/` wrenches have base axes: anyone to device.
+pub const BODY_SET_CF_ORIENTATION_ABSOLUTE: Topic<Bool> =
+    Topic::new("body/set_cf_orientation_absolute", reliable(10));
+/// No force, and none until a force is commanded anew: anyone to device.
+pub const FREE: Topic<Empty> = Topic::new("free", reliable(10));
+/// Stay here: anyone to device.
+pub const HOLD: Topic<Empty> = Topic::new("hold", reliable(10));
+/// Whether the device carries its own weight: anyone to device.
+pub const USE_GRAVITY_COMPENSATION: Topic<Bool> = Topic::new("use_gravity_compensation", reliable(10));
+/// enable, disable, pause, resume, home or unhome: anyone to device.
+pub const STATE_COMMAND: Topic<StringStamped> = Topic::new("state_command", reliable(10));
+/// The device's operating state, at every change and in answer to every command: device, latched.
+pub const OPERATING_STATE: Topic<OperatingState> = Topic::new("operating_state", latched(10));
+/// True takes the force away and latches a fault: anyone to device.
+pub const EMERGENCY_STOP: Topic<Bool> = Topic::new("emergency_stop", reliable(10));
+/// Changes of the device's lifecycle state: device.
+pub const TRANSITION_EVENT: Topic<TransitionEvent> = Topic::new("~/transition_event", reliable(10));
 /// What the device's motor loop needs until the next force: deformation to device.
 pub const CONTACT_LAW: Topic<ContactLaw> = Topic::new("contact_law", reliable(10));
 /// The contact, one for each pose: deformation.
@@ -96,6 +128,12 @@ pub const CLOCK: Topic<Clock> = Topic::new("/clock", QosProfile::default().keep_
 pub const TF: Topic<TFMessage> = Topic::new("/tf", reliable(100));
 /// Transforms that stay.
 pub const TF_STATIC: Topic<TFMessage> = Topic::new("/tf_static", latched(100));
+
+/// A button of a device in buttons\[0\] (0 released, 1 pressed, 2 clicked: pressed only briefly), by the name that the
+/// device gives it: device, latched.
+pub fn button(name: &str) -> Topic<Joy> {
+    Topic { name: Cow::Owned(name.to_owned()), qos: latched(10), message: PhantomData }
+}
 
 #[cfg(test)]
 mod tests {

@@ -5,8 +5,9 @@
 //! that spins once and then empties every [`Inbox`] never loses one: what waits, waits in rcl's own queue.
 
 use futures::{FutureExt, Stream, StreamExt};
-use r2r::WrappedTypesupport;
+use r2r::{ServiceRequest, WrappedServiceTypeSupport, WrappedTypesupport};
 
+use crate::services::ServiceName;
 use crate::topics::Topic;
 use crate::{PublishError, StartError};
 
@@ -63,5 +64,43 @@ impl<M: 'static> Inbox<M> {
             newest = Some(message);
         }
         newest
+    }
+}
+
+/// The answering end of a service. Empty it after every spin.
+pub struct Service<S: WrappedServiceTypeSupport + 'static> {
+    calls: Inbox<ServiceRequest<S>>,
+}
+
+impl<S: WrappedServiceTypeSupport + 'static> Service<S> {
+    pub(crate) fn new(node: &mut r2r::Node, service: &ServiceName<S>) -> Result<Service<S>, StartError> {
+        match node.create_service::<S>(service.name(), service.qos()) {
+            Ok(calls) => Ok(Service { calls: Inbox::new(calls) }),
+            Err(source) => {
+                Err(StartError::Endpoint { what: "service", name: service.name().to_owned(), source })
+            }
+        }
+    }
+
+    /// The oldest call that waits, if any. Never blocks.
+    pub fn take(&mut self) -> Option<Call<S>> {
+        self.calls.take().map(|request| Call { request })
+    }
+}
+
+/// One call of a service, to be answered once.
+pub struct Call<S: WrappedServiceTypeSupport> {
+    request: ServiceRequest<S>,
+}
+
+impl<S: WrappedServiceTypeSupport + 'static> Call<S> {
+    /// What is asked for.
+    pub fn request(&self) -> &S::Request {
+        &self.request.message
+    }
+
+    /// Answer; a caller that has gone meanwhile needs none.
+    pub fn answer(self, response: S::Response) {
+        let _ = self.request.respond(response);
     }
 }

@@ -1,6 +1,7 @@
 //! The standard parameter services and `/parameter_events`, served by hand: r2r's own handler knows no arrays, no
 //! ranges and no read-only parameters.
 
+use r2r::WrappedServiceTypeSupport;
 use r2r::rcl_interfaces::msg::{
     FloatingPointRange, IntegerRange, ListParametersResult, Parameter, ParameterDescriptor, ParameterEvent,
     SetParametersResult,
@@ -9,51 +10,40 @@ use r2r::rcl_interfaces::srv::{
     DescribeParameters, GetParameterTypes, GetParameters, ListParameters, SetParameters,
     SetParametersAtomically,
 };
-use r2r::{QosProfile, ServiceRequest, WrappedServiceTypeSupport};
 use scene::{Kind, ParameterSpec, Value};
 
 use super::store::{Change, Store};
 use super::values::{from_message, to_message, type_number};
-use crate::{Inbox, Publisher, StartError, topics};
+use crate::services::ServiceName;
+use crate::{Publisher, Service, StartError, topics};
 
 /// The service ends of one node.
 pub(crate) struct ParameterServices {
-    list: Requests<ListParameters::Service>,
-    get: Requests<GetParameters::Service>,
-    types: Requests<GetParameterTypes::Service>,
-    describe: Requests<DescribeParameters::Service>,
-    set: Requests<SetParameters::Service>,
-    set_together: Requests<SetParametersAtomically::Service>,
+    list: Service<ListParameters::Service>,
+    get: Service<GetParameters::Service>,
+    types: Service<GetParameterTypes::Service>,
+    describe: Service<DescribeParameters::Service>,
+    set: Service<SetParameters::Service>,
+    set_together: Service<SetParametersAtomically::Service>,
     events: Publisher<ParameterEvent>,
 }
 
-type Requests<S> = Inbox<ServiceRequest<S>>;
-
-fn requests<S>(node: &mut r2r::Node, name: &str) -> Result<Requests<S>, StartError>
+fn service<S>(node: &mut r2r::Node, name: &'static str) -> Result<Service<S>, StartError>
 where
     S: WrappedServiceTypeSupport + 'static,
 {
-    let name = format!("~/{name}");
-    match node.create_service::<S>(&name, QosProfile::parameters()) {
-        Ok(requests) => Ok(Inbox::new(requests)),
-        Err(source) => Err(StartError::Endpoint { what: "service", name, source }),
-    }
-}
-
-/// Answer; a caller that has gone meanwhile needs none.
-fn answer<S: WrappedServiceTypeSupport + 'static>(request: ServiceRequest<S>, response: S::Response) {
-    let _ = request.respond(response);
+    Service::new(node, &ServiceName::of_parameters(name))
 }
 
 impl ParameterServices {
     pub(crate) fn new(node: &mut r2r::Node) -> Result<ParameterServices, StartError> {
         Ok(ParameterServices {
-            list: requests(node, "list_parameters")?,
-            get: requests(node, "get_parameters")?,
-            types: requests(node, "get_parameter_types")?,
-            describe: requests(node, "describe_parameters")?,
-            set: requests(node, "set_parameters")?,
-            set_together: requests(node, "set_parameters_atomically")?,
+            list: service(node, "~/list_parameters")?,
+            get: service(node, "~/get_parameters")?,
+            types: service(node, "~/get_parameter_types")?,
+            describe: service(node, "~/describe_parameters")?,
+            set: service(node, "~/set_parameters")?,
+            set_together: service(node, "~/set_parameters_atomically")?,
             events: Publisher::new(node, &topics::PARAMETER_EVENTS, "")?,
         })
     }
@@ -77,36 +67,36 @@ impl ParameterServices {
 
     /// Answer what arrived since the last turn; what was changed by it.
     pub(crate) fn serve(&mut self, store: &mut Store) -> Vec<Change> {
-        while let Some(request) = self.list.take() {
-            let (names, prefixes) = store.list(&request.message.prefixes, request.message.depth);
-            answer(request, ListParameters::Response { result: ListParametersResult { names, prefixes } });
+        while let Some(call) = self.list.take() {
+            let (names, prefixes) = store.list(&call.request().prefixes, call.request().depth);
+            call.answer(ListParameters::Response { result: ListParametersResult { names, prefixes } });
         }
-        while let Some(request) = self.get.take() {
-            let values = request.message.names.iter().map(|name| to_message(store.get(name))).collect();
-            answer(request, GetParameters::Response { values });
+        while let Some(call) = self.get.take() {
+            let values = call.request().names.iter().map(|name| to_message(store.get(name))).collect();
+            call.answer(GetParameters::Response { values });
         }
-        while let Some(request) = self.types.take() {
-            let types = request.message.names.iter().map(|name| to_message(store.get(name)).type_).collect();
-            answer(request, GetParameterTypes::Response { types });
+        while let Some(call) = self.types.take() {
+            let types = call.request().names.iter().map(|name| to_message(store.get(name)).type_).collect();
+            call.answer(GetParameterTypes::Response { types });
         }
-        while let Some(request) = self.describe.take() {
-            let names = &request.message.names;
+        while let Some(call) = self.describe.take() {
+            let names = &call.request().names;
             let descriptors = names.iter().map(|name| descriptor(name, store.describe(name))).collect();
-            answer(request, DescribeParameters::Response { descriptors });
+            call.answer(DescribeParameters::Response { descriptors });
         }
         let mut changes = Vec::new();
-        while let Some(request) = self.set.take() {
-            let results = request
-                .message
+        while let Some(call) = self.set.take() {
+            let results = call
+                .request()
                 .parameters
                 .iter()
                 .map(|p| result(set(store, std::slice::from_ref(p)), &mut changes));
             let results = results.collect();
-            answer(request, SetParameters::Response { results });
+            call.answer(SetParameters::Response { results });
         }
-        while let Some(request) = self.set_together.take() {
-            let result = result(set(store, &request.message.parameters), &mut changes);
-            answer(request, SetParametersAtomically::Response { result });
+        while let Some(call) = self.set_together.take() {
+            let result = result(set(store, &call.request().parameters), &mut changes);
+            call.answer(SetParametersAtomically::Response { result });
         }
         changes
     }
