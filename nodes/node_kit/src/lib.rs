@@ -34,6 +34,6 @@ pub use parameters::{Change, TogetherCheck};
 pub use run::run;
 pub use scene::Node;
 pub use security::SecurityValueError;
-pub use shutdown::Shutdown;
+pub use shutdown::{ForcedExit, Shutdown, before_forced_exit};
 pub use tf::{TransformListener, transform_stamped};
 pub use wire::{Call, Inbox, Publisher, Service};

@@ -1,14 +1,41 @@
-//! How a node ends: a signal sets a flag, the loop sees it, a second signal kills; a panic ends the whole process.
+//! How a node ends: a signal sets a flag and the loop sees it; a second signal, an abort or a panic ends the whole process,
+//! but not before what [`before_forced_exit`] named has run.
+
+#![expect(unsafe_code, reason = "signal-hook cannot know that an action is safe in a signal handler")]
 
 use std::io;
 use std::sync::Arc;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::{flag, low_level};
+use signal_hook::consts::{SIGABRT, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+use signal_hook::low_level;
 
 /// Exit code of a process in which any thread panicked.
 const PANIC_EXIT_CODE: i32 = 101;
+
+/// What must happen before the process is gone, however it ends, short of SIGKILL.
+#[derive(Clone, Copy, Debug)]
+pub struct ForcedExit {
+    /// Runs in a signal handler or a panicking thread: no lock, no allocation, an end in sight.
+    pub prepare: fn(),
+    /// Whether a panic of this thread shall unwind it instead of ending the process: unwinding does what is needed, and
+    /// the thread's owner sees that it has ended.
+    pub unwinds: fn() -> bool,
+}
+
+static FORCED_EXIT: OnceLock<ForcedExit> = OnceLock::new();
+
+/// Names what must happen before a forced exit. The first call counts.
+pub fn before_forced_exit(action: ForcedExit) {
+    FORCED_EXIT.get_or_init(|| action);
+}
+
+fn prepare() {
+    if let Some(action) = FORCED_EXIT.get() {
+        (action.prepare)();
+    }
+}
 
 /// Whether the process was asked to end. Clones share the flag, so that other threads can watch it too.
 #[derive(Clone, Debug, Default)]
@@ -17,14 +44,28 @@ pub struct Shutdown {
 }
 
 impl Shutdown {
-    /// Let SIGINT and SIGTERM set the flag (r2r installs no handler). The second signal ends the process at once.
+    /// Lets signals set the flag (r2r installs no handler): Ctrl-C, SIGTERM, a terminal that goes away. The second signal
+    /// ends the process at once, and so does an abort of the middleware.
     pub(crate) fn install() -> io::Result<Shutdown> {
         let shutdown = Shutdown::default();
-        for signal in [SIGINT, SIGTERM] {
-            // Order matters: on the first signal the flag is still unset when the default action looks at it.
-            flag::register_conditional_default(signal, Arc::clone(&shutdown.requested))?;
-            flag::register(signal, Arc::clone(&shutdown.requested))?;
+        for signal in [SIGINT, SIGTERM, SIGHUP, SIGQUIT] {
+            let requested = Arc::clone(&shutdown.requested);
+            let action = move || {
+                if requested.swap(true, Ordering::Relaxed) {
+                    prepare();
+                    low_level::exit(128 + signal);
+                }
+            };
+            // SAFETY: the action is an atomic exchange, what ForcedExit promises of itself, and _exit.
+            unsafe { low_level::register(signal, action)? };
         }
+        let abort = || {
+            prepare();
+            // Ends the process as if there were no handler.
+            let _ = low_level::emulate_default_handler(SIGABRT);
+        };
+        // SAFETY: as above; emulating the default handler is what signal-hook made for a handler.
+        unsafe { low_level::register(SIGABRT, abort)? };
         Ok(shutdown)
     }
 
@@ -43,7 +84,11 @@ impl Shutdown {
 pub(crate) fn exit_on_panic() {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
+        prepare();
         report(panic);
+        if FORCED_EXIT.get().is_some_and(|action| (action.unwinds)()) {
+            return;
+        }
         // _exit: destructors of the middleware must not run while other threads still use it.
         low_level::exit(PANIC_EXIT_CODE);
     }));
@@ -62,19 +107,79 @@ mod tests {
         assert!(watcher.is_requested());
     }
 
+    const INNER: &str = "RHOMBUS_TEST_ENDS";
+
+    /// Runs one test again in a process of its own, where it may end the process: exit code and what it said.
+    fn alone(name: &str) -> (std::process::ExitStatus, String) {
+        let mut again = std::process::Command::new(std::env::current_exe().unwrap());
+        let name = format!("shutdown::tests::{name}");
+        let output = again.args(["--exact", &name, "--nocapture"]).env(INNER, "1").output().unwrap();
+        (output.status, String::from_utf8_lossy(&output.stderr).into_owned())
+    }
+
+    fn is_alone() -> bool {
+        std::env::var_os(INNER).is_some()
+    }
+
+    fn say_prepared() {
+        eprintln!("prepared");
+    }
+
     #[test]
-    fn a_panic_in_any_thread_ends_the_process_with_a_code_of_its_own() {
-        const INNER: &str = "RHOMBUS_TEST_PANICS";
-        if std::env::var_os(INNER).is_some() {
+    fn a_panic_in_any_thread_ends_the_process_prepared_and_with_a_code_of_its_own() {
+        if is_alone() {
+            before_forced_exit(ForcedExit { prepare: say_prepared, unwinds: || false });
             exit_on_panic();
             let thread = std::thread::Builder::new().spawn(|| panic!("on purpose")).unwrap();
             let _ = thread.join();
             return; // Not reached: this test would pass and the process end with 0.
         }
-        let name = "shutdown::tests::a_panic_in_any_thread_ends_the_process_with_a_code_of_its_own";
-        let mut again = std::process::Command::new(std::env::current_exe().unwrap());
-        let output = again.args(["--exact", name, "--nocapture"]).env(INNER, "1").output().unwrap();
-        assert_eq!(output.status.code(), Some(PANIC_EXIT_CODE));
-        assert!(String::from_utf8_lossy(&output.stderr).contains("on purpose"));
+        let (status, said) =
+            alone("a_panic_in_any_thread_ends_the_process_prepared_and_with_a_code_of_its_own");
+        assert_eq!(status.code(), Some(PANIC_EXIT_CODE));
+        let (prepared, panicked) = (said.find("prepared").unwrap(), said.find("on purpose").unwrap());
+        assert!(prepared < panicked, "{said}");
+    }
+
+    #[test]
+    fn a_thread_that_must_unwind_does_and_the_process_lives_on() {
+        if is_alone() {
+            before_forced_exit(ForcedExit {
+                prepare: || (),
+                unwinds: || std::thread::current().name() == Some("motors"),
+            });
+            exit_on_panic();
+            let motors = std::thread::Builder::new().name("motors".to_owned());
+            assert!(motors.spawn(|| panic!("on purpose")).unwrap().join().is_err());
+            eprintln!("lives on");
+            return;
+        }
+        let (status, said) = alone("a_thread_that_must_unwind_does_and_the_process_lives_on");
+        assert!(status.success() && said.contains("lives on"), "{said}");
+    }
+
+    #[test]
+    fn a_second_signal_and_an_abort_end_the_process_prepared() {
+        use std::os::unix::process::ExitStatusExt;
+        if is_alone() {
+            before_forced_exit(ForcedExit { prepare: say_prepared, unwinds: || false });
+            let _shutdown = Shutdown::install().unwrap();
+            if std::env::var_os("RHOMBUS_TEST_ABORTS").is_some() {
+                std::process::abort();
+            }
+            low_level::raise(SIGINT).unwrap();
+            low_level::raise(SIGINT).unwrap();
+            return; // Not reached.
+        }
+        let name = "a_second_signal_and_an_abort_end_the_process_prepared";
+        let (status, said) = alone(name);
+        assert_eq!(status.code(), Some(128 + SIGINT));
+        assert!(said.contains("prepared"), "{said}");
+        let mut aborts = std::process::Command::new(std::env::current_exe().unwrap());
+        let name = format!("shutdown::tests::{name}");
+        let aborts = aborts.args(["--exact", &name, "--nocapture"]).env(INNER, "1");
+        let output = aborts.env("RHOMBUS_TEST_ABORTS", "1").output().unwrap();
+        assert_eq!(output.status.signal(), Some(SIGABRT));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("prepared"));
     }
 }
