@@ -17,6 +17,8 @@ mod backend;
 mod device;
 mod error;
 mod force_choice;
+#[cfg(feature = "haply")]
+pub mod haply;
 mod latest;
 mod motor_loop;
 mod operating;
