@@ -17,6 +17,8 @@ mod backend;
 mod device;
 mod error;
 mod force_choice;
+#[cfg(feature = "force_dimension")]
+pub mod force_dimension;
 #[cfg(feature = "haply")]
 pub mod haply;
 mod latest;
