@@ -1,0 +1,171 @@
+//! The safety layer itself: the list of its rules, in order.
+
+use super::clamp::Clamp;
+use super::energy::{Energy, EnergyObserver};
+use super::engage_gate::{EngageGate, LONGEST_SILENCE_S};
+use super::passivity::PassivityController;
+use super::slew::Slew;
+use super::velocity_guard::VelocityGuard;
+use super::workspace_edge::WorkspaceEdge;
+use super::{CheckedSettings, FaultCause, LimitsHit, finite, power};
+use crate::source::Wanted;
+use crate::{DeviceLimits, DeviceState, Wrench};
+
+/// Without a reading for longer than this the engage gate closes, s.
+const LONGEST_BLINDNESS_S: f64 = 0.02;
+
+/// What the motors are to be given in one period.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Applied {
+    /// Finite, within every limit, at most one slew step from the one before.
+    pub wrench: Wrench,
+    /// What is wrong with the handle's motion; the wrench is on its way to zero already.
+    pub fault: Option<FaultCause>,
+    /// The rules that changed something.
+    pub limits_hit: LimitsHit,
+}
+
+/// Turns what is wanted into what the motors may be given. RT safe, but for [`new`](SafetyLayer::new).
+#[derive(Clone, Debug)]
+pub struct SafetyLayer {
+    period_s: f64,
+    max_power_w: f64,
+    gate: EngageGate,
+    clamp: Clamp,
+    edge: WorkspaceEdge,
+    passivity: PassivityController,
+    energy: EnergyObserver,
+    slew: Slew,
+    guard: VelocityGuard,
+    last_ns: Option<u64>,
+    blind_s: f64,
+    applied: Wrench,
+    /// What the passivity controller took out of it.
+    kept: Wrench,
+}
+
+/// How long a period was.
+#[derive(Clone, Copy)]
+struct Elapsed {
+    /// Since the one before, s.
+    elapsed_s: f64,
+    /// The same, but never more than a nominal period: what a force may change by does not grow with being late.
+    dt_s: f64,
+}
+
+impl SafetyLayer {
+    /// A layer for a device with these limits, in a loop with this period, s. No force is applied yet.
+    pub fn new(settings: &CheckedSettings, limits: &DeviceLimits, period_s: f64) -> SafetyLayer {
+        SafetyLayer {
+            period_s,
+            max_power_w: settings.max_power_w,
+            gate: EngageGate::new(settings),
+            clamp: Clamp::new(settings, limits),
+            edge: WorkspaceEdge::new(limits.workspace, settings.workspace_margin_m),
+            passivity: PassivityController::new(settings, period_s),
+            energy: EnergyObserver::new(period_s),
+            slew: Slew::new(settings),
+            guard: VelocityGuard::new(settings.max_speed_m_per_s, period_s),
+            last_ns: None,
+            blind_s: 0.0,
+            applied: Wrench::ZERO,
+            kept: Wrench::ZERO,
+        }
+    }
+
+    /// One period: what the motors get of `wanted`, for a handle in `state`, which must be finite, at `now_ns` by the
+    /// monotonic clock. Where the operating state permits no force, the force goes to zero at the slew limit. RT safe.
+    pub fn step(
+        &mut self,
+        wanted: &Wanted,
+        state: &DeviceState,
+        permits_force: bool,
+        now_ns: u64,
+    ) -> Applied {
+        let Elapsed { elapsed_s, dt_s } = self.elapsed(now_ns);
+        let mut hit = LimitsHit::NONE;
+        hit.insert_if(wanted.refused, LimitsHit::NOT_FINITE);
+        self.blind_s = 0.0;
+        self.energy.observe(&self.applied, &self.kept, state, elapsed_s);
+        let fault = self.guard(state, permits_force, elapsed_s);
+
+        let mut target = finite::or_nothing(wanted.wrench, &mut hit);
+        self.kept = Wrench::ZERO;
+        if permits_force && fault.is_none() {
+            target = self.gate.apply(wanted, target, elapsed_s, dt_s, &mut hit);
+            target = self.clamp.apply(target, &mut hit);
+            target = self.edge.apply(target, state, &mut hit);
+            let before = target;
+            target = self.passivity.apply(target, state, &self.energy, &mut hit);
+            self.kept = difference(&before, &target);
+            target = power::limited(target, state, self.max_power_w, &mut hit);
+            target = self.clamp.apply(target, &mut hit);
+        } else {
+            self.gate.close();
+            target = Wrench::ZERO;
+        }
+        self.applied = self.slew.apply(&self.applied, &target, dt_s, &mut hit);
+        Applied { wrench: self.applied, fault, limits_hit: hit }
+    }
+
+    /// A period whose reading cannot be used: the force goes to zero at the slew limit. RT safe.
+    pub fn step_blind(&mut self, now_ns: u64) -> Applied {
+        let Elapsed { elapsed_s, dt_s } = self.elapsed(now_ns);
+        let mut hit = LimitsHit::NONE;
+        self.blind_s += elapsed_s;
+        if self.blind_s > LONGEST_BLINDNESS_S {
+            self.gate.close();
+        }
+        self.energy.skip();
+        self.applied = self.slew.apply(&self.applied, &Wrench::ZERO, dt_s, &mut hit);
+        Applied { wrench: self.applied, fault: None, limits_hit: hit }
+    }
+
+    /// The largest force from now on, N. Never more than what the layer was made with; a smaller one is reached at the
+    /// slew limit. RT safe.
+    pub fn set_max_force_n(&mut self, force_n: f64) {
+        self.clamp.set_max_force_n(force_n);
+    }
+
+    /// What the motors were given last. RT safe.
+    pub fn applied(&self) -> Wrench {
+        self.applied
+    }
+
+    /// Whether that is nothing: the motors can be switched off without a step. RT safe.
+    pub fn is_zero(&self) -> bool {
+        self.applied == Wrench::ZERO
+    }
+
+    /// Energy between motors and hand since the start. RT safe.
+    pub fn energy(&self) -> Energy {
+        self.energy.energy()
+    }
+
+    fn elapsed(&mut self, now_ns: u64) -> Elapsed {
+        let elapsed_s =
+            self.last_ns.map_or(self.period_s, |last_ns| now_ns.saturating_sub(last_ns) as f64 * 1e-9);
+        self.last_ns = Some(now_ns);
+        if elapsed_s > LONGEST_SILENCE_S {
+            self.gate.close();
+        }
+        Elapsed { elapsed_s, dt_s: elapsed_s.min(self.period_s) }
+    }
+
+    /// A handle that nobody drives may be as fast as the hand likes.
+    fn guard(&mut self, state: &DeviceState, permits_force: bool, elapsed_s: f64) -> Option<FaultCause> {
+        if !permits_force && self.is_zero() {
+            self.guard.reset();
+            return None;
+        }
+        self.guard.is_too_fast(state, elapsed_s).then_some(FaultCause::Velocity)
+    }
+}
+
+fn difference(a: &Wrench, b: &Wrench) -> Wrench {
+    Wrench {
+        force_n: a.force_n - b.force_n,
+        torque_n_m: a.torque_n_m - b.torque_n_m,
+        gripper_force_n: a.gripper_force_n - b.gripper_force_n,
+    }
+}
