@@ -1,0 +1,363 @@
+//! Self-built devices on a serial line: USB CDC or a UART, with an open protocol (`serial_device/PROTOCOL.md`).
+//!
+//! The device sends states at its own rate; the newest one counts. Every command is complete (motors, force, torque,
+//! gripper), carries a sequence number, and comes back as an echo in the states, so lost frames and round trips are
+//! counted. The device's own watchdog takes the force away 20 ms after the last command, whatever happens here.
+
+mod find;
+mod handshake;
+mod line;
+mod outbox;
+mod port;
+mod states;
+pub mod wire;
+
+pub use line::Line;
+pub use port::Port;
+
+use std::time::Duration;
+
+use crate::{Description, Device, DeviceError, DeviceState, Found, MotorsOff, Wrench};
+use handshake::{Greeted, arrived, greet};
+use outbox::Outbox;
+use states::States;
+use wire::{COMMAND_FRAME, Command, Frame, Message, Receiver, command_flag, state_flag};
+
+const BACKEND: &str = "serial";
+/// Without a state for this long the device counts as lost.
+const LOST_AFTER: Duration = Duration::from_millis(100);
+/// How long the device may take to follow [`Device::enable`] before its word on the motors counts.
+const FOLLOWS_WITHIN: Duration = Duration::from_millis(100);
+const HOMED_WITHIN: Duration = Duration::from_secs(30);
+/// The most that one call reads, so that a device that never stops cannot hold the motor loop.
+const CHUNKS: usize = 16;
+const CHUNK: usize = 1024;
+/// Commands whose time of sending is remembered.
+const REMEMBERED: usize = 64;
+
+/// Where the device hangs, and which one it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// The port, a folder of ports (as `/dev/serial/by-id`), or empty for all USB serial ports.
+    pub port: String,
+    /// Bits per second of a UART; USB devices do not care.
+    pub baud: u32,
+    /// Serial number of the device; empty when there is only one.
+    pub serial: String,
+}
+
+/// Opens the one device that the settings select. Takes up to 4 s; boards that restart when their port is opened do so.
+///
+/// # Errors
+/// No such port, no permission, in use, no answer, another version of the protocol, limits that are none, states that
+/// are none, several devices and no choice: each with its remedy.
+pub fn open(settings: Settings) -> Result<SerialDevice, DeviceError> {
+    check(&settings)?;
+    find::choose(find::try_all(&settings)?, &settings.serial)
+}
+
+/// The devices that answer. Says hello at every port that [`Settings::port`] means, whatever the serial number.
+///
+/// # Errors
+/// A setting out of range; a port that is missing, in use or forbidden when nothing else was found.
+pub fn list(settings: &Settings) -> Result<Vec<Found>, DeviceError> {
+    check(settings)?;
+    match find::try_all(settings) {
+        Ok(tried) => find::found(tried),
+        // No port at all, and none asked for.
+        Err(DeviceError::NotFound { .. }) if settings.port.is_empty() => Ok(Vec::new()),
+        Err(error) => Err(error),
+    }
+}
+
+fn check(settings: &Settings) -> Result<(), DeviceError> {
+    // Below, three commands no longer fit the watchdog's 20 ms.
+    if (57_600..=12_000_000).contains(&settings.baud) {
+        return Ok(());
+    }
+    Err(DeviceError::Setting {
+        name: "serial.baud",
+        value: settings.baud.to_string(),
+        accepted: "57600 to 12000000 bit/s".to_owned(),
+    })
+}
+
+/// An open device on a serial line.
+pub struct SerialDevice<L: Line = Port> {
+    line: L,
+    description: Description,
+    state_rate_hz: u16,
+    receiver: Receiver,
+    states: States,
+    outbox: Outbox,
+    wrench: Wrench,
+    flags: u8,
+    /// Sequence of the next command.
+    sequence: u16,
+    /// When the last commands were sent, by their sequence modulo the length, with their sequence.
+    sent: [(u16, u64); REMEMBERED],
+    /// The newest echo whose round trip was measured.
+    measured: Option<u16>,
+    enabled: Option<Enabled>,
+    /// Why the line is gone for good.
+    gone: Option<DeviceError>,
+}
+
+/// Motors that were asked to be on.
+#[derive(Clone, Copy)]
+struct Enabled {
+    /// The first command that asked for it.
+    sequence: u16,
+    since_ns: u64,
+    /// Whether the device has seen it.
+    seen: bool,
+}
+
+impl<L: Line> SerialDevice<L> {
+    /// Says hello on an open line. `place` is what errors call it. Takes up to 4 s.
+    ///
+    /// # Errors
+    /// Whatever speaks against the device at the other end.
+    pub fn greet(mut line: L, place: &str) -> Result<SerialDevice<L>, DeviceError> {
+        let Greeted { description, states, receiver, hello } = greet(&mut line, place)?;
+        Ok(SerialDevice {
+            line,
+            description,
+            state_rate_hz: hello.state_rate_hz,
+            receiver,
+            states,
+            outbox: Outbox::new(),
+            wrench: Wrench::ZERO,
+            flags: 0,
+            sequence: 0,
+            sent: [(0, 0); REMEMBERED],
+            measured: None,
+            enabled: None,
+            gone: None,
+        })
+    }
+
+    /// States in a second as the device means to send them.
+    pub fn state_rate_hz(&self) -> u16 {
+        self.state_rate_hz
+    }
+
+    /// Takes everything that has come, as far as one call may.
+    fn receive(&mut self) -> Result<(), DeviceError> {
+        let mut chunk = [0; CHUNK];
+        for _ in 0..CHUNKS {
+            let result = self.line.read(&mut chunk);
+            let Some(count) = self.noted(arrived(result))? else { break };
+            let now_ns = self.line.now_ns();
+            let mut input = &chunk[..count];
+            while let Some(frame) = self.receiver.next(&mut input) {
+                match frame.map(Message::decode) {
+                    Ok(Ok(Message::State(state, joints))) => {
+                        if self.states.take(&state, joints, now_ns) {
+                            follow(&mut self.states, &self.sent, &mut self.measured, &mut self.enabled);
+                        }
+                    }
+                    // The answer to a hello that was asked twice.
+                    Ok(Ok(Message::Hello(_))) => {}
+                    _ => self.states.counts.bad_frames += 1,
+                }
+            }
+            if count < CHUNK {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn next_command(&mut self) -> Frame {
+        let [force, torque] = [self.wrench.force_n, self.wrench.torque_n_m].map(|v| v.as_vec3().to_array());
+        let command = Command {
+            flags: self.flags,
+            sequence: self.sequence,
+            force_n: force,
+            torque_n_m: torque,
+            gripper_force_n: self.wrench.gripper_force_n as f32,
+        };
+        self.sent[usize::from(self.sequence) % REMEMBERED] = (self.sequence, self.line.now_ns());
+        self.sequence = self.sequence.wrapping_add(1);
+        self.states.counts.commands += 1;
+        command.frame()
+    }
+
+    /// Sends what is wanted now, unless earlier commands have not left yet: then a later one will be the newest. So a
+    /// line that is slower than the motor loop carries fewer commands, none of them old.
+    fn send_newest(&mut self) -> Result<(), DeviceError> {
+        self.push_out()?;
+        if !self.outbox.is_empty() || self.line.unsent() >= COMMAND_FRAME {
+            self.states.counts.skipped_commands += 1;
+            return Ok(());
+        }
+        let command = self.next_command();
+        self.outbox.replace(&[command]);
+        self.push_out()
+    }
+
+    fn push_out(&mut self) -> Result<(), DeviceError> {
+        if let Some(gone) = &self.gone {
+            return Err(gone.clone());
+        }
+        while !self.outbox.is_empty() {
+            let result = self.line.write(self.outbox.rest());
+            match self.noted(arrived(result))? {
+                Some(count) => self.outbox.took(count),
+                None => break,
+            }
+        }
+        Ok(())
+    }
+
+    /// Remembers that the line is gone.
+    fn noted<T>(&mut self, result: Result<T, DeviceError>) -> Result<T, DeviceError> {
+        if let Err(error) = &result {
+            self.gone = Some(error.clone());
+        }
+        result
+    }
+
+    /// Why the device keeps its motors off although it was enabled.
+    fn motors_off(&self) -> Option<MotorsOff> {
+        let enabled = self.enabled?;
+        let overdue = self.line.now_ns().saturating_sub(enabled.since_ns) > ns(FOLLOWS_WITHIN);
+        if enabled.seen || overdue { self.states.newest()?.cause } else { None }
+    }
+}
+
+/// What the echo in the newest state tells: round trips, and whether the device knows that it is enabled.
+fn follow(
+    states: &mut States,
+    sent: &[(u16, u64); REMEMBERED],
+    measured: &mut Option<u16>,
+    enabled: &mut Option<Enabled>,
+) {
+    let Some(newest) = states.newest() else { return };
+    let Some((echo, age_us)) = newest.echo else { return };
+    if let Some(enabled) = enabled {
+        enabled.seen |= echo.wrapping_sub(enabled.sequence).cast_signed() >= 0;
+    }
+    let (sequence, sent_ns) = sent[usize::from(echo) % REMEMBERED];
+    if sequence == echo && sent_ns > 0 && *measured != Some(echo) && age_us < u16::MAX {
+        *measured = Some(echo);
+        let round_trip_us =
+            (newest.received_ns.saturating_sub(sent_ns) / 1000).saturating_sub(u64::from(age_us));
+        let counts = &mut states.counts;
+        counts.round_trip_us = round_trip_us;
+        counts.longest_round_trip_us = counts.longest_round_trip_us.max(round_trip_us);
+    }
+}
+
+impl<L: Line> Device for SerialDevice<L> {
+    fn description(&self) -> &Description {
+        &self.description
+    }
+
+    fn read(&mut self) -> Result<DeviceState, DeviceError> {
+        self.push_out()?;
+        self.receive()?;
+        let lost = |reason| DeviceError::Lost { device: BACKEND, reason };
+        let received_ns = self.states.newest().map_or(0, |newest| newest.received_ns);
+        if self.line.now_ns().saturating_sub(received_ns) > ns(LOST_AFTER) {
+            return Err(lost(self.states.refused.map_or("no state for 100 ms", |refused| refused.what())));
+        }
+        self.states.device_state(self.motors_off()).ok_or_else(|| lost("no state at all"))
+    }
+
+    fn command(&mut self, wrench: &Wrench) -> Result<(), DeviceError> {
+        self.wrench = if self.enabled.is_some() { *wrench } else { Wrench::ZERO };
+        self.send_newest()
+    }
+
+    fn enable(&mut self) -> Result<(), DeviceError> {
+        self.wrench = Wrench::ZERO;
+        // A device that has switched its motors off itself must see a command without them first.
+        self.flags &= !command_flag::MOTORS_ON;
+        let off = self.next_command();
+        self.flags |= command_flag::MOTORS_ON;
+        self.enabled = Some(Enabled { sequence: self.sequence, since_ns: self.line.now_ns(), seen: false });
+        let on = self.next_command();
+        self.outbox.replace(&[off, on]);
+        self.push_out()
+    }
+
+    fn disable(&mut self) -> Result<(), DeviceError> {
+        self.wrench = Wrench::ZERO;
+        self.enabled = None;
+        self.flags &= !(command_flag::MOTORS_ON | command_flag::HOME);
+        let off = self.next_command();
+        self.outbox.replace(&[off]);
+        for _ in 0..10 {
+            self.push_out()?;
+            if self.outbox.is_empty() {
+                return Ok(());
+            }
+            self.line.wait(Duration::from_micros(500));
+        }
+        let reason = "it takes no commands; its watchdog takes the force away";
+        Err(DeviceError::Lost { device: BACKEND, reason })
+    }
+
+    fn home(&mut self) -> Result<(), DeviceError> {
+        self.wrench = Wrench::ZERO;
+        self.flags |= command_flag::HOME;
+        let first = self.sequence;
+        let until_ns = self.line.now_ns() + ns(HOMED_WITHIN);
+        let homed = loop {
+            self.send_newest()?;
+            self.line.wait(Duration::from_millis(2));
+            let state = self.read()?;
+            let Some(newest) = self.states.newest() else { break false };
+            let knows = newest.echo.is_some_and(|(echo, _)| echo.wrapping_sub(first).cast_signed() >= 0);
+            if knows && newest.flags & state_flag::HOMING == 0 {
+                break state.homed;
+            }
+            if self.line.now_ns() > until_ns {
+                break false;
+            }
+        };
+        self.flags &= !command_flag::HOME;
+        self.send_newest()?;
+        if homed {
+            return Ok(());
+        }
+        Err(DeviceError::Protocol {
+            device: BACKEND,
+            what: format!("it did not find its reference position within {} s", HOMED_WITHIN.as_secs()),
+            remedy: "free the handle and its end switches, then home again".to_owned(),
+        })
+    }
+
+    fn set_gravity_compensation(&mut self, on: bool) -> Result<(), DeviceError> {
+        if !self.states.has(wire::capability::GRAVITY_COMPENSATION) {
+            return Err(DeviceError::Unsupported { device: BACKEND, what: "gravity compensation" });
+        }
+        self.flags &= !command_flag::GRAVITY_COMPENSATION;
+        if on {
+            self.flags |= command_flag::GRAVITY_COMPENSATION;
+        }
+        self.send_newest()
+    }
+}
+
+impl<L: Line> Drop for SerialDevice<L> {
+    /// Motors off, and time for the command to leave before the port closes.
+    fn drop(&mut self) {
+        if self.disable().is_err() {
+            return;
+        }
+        for _ in 0..20 {
+            if self.line.unsent() == 0 {
+                break;
+            }
+            self.line.wait(Duration::from_millis(1));
+        }
+    }
+}
+
+/// A time in whole nanoseconds.
+const fn ns(time: Duration) -> u64 {
+    time.as_nanos() as u64
+}
