@@ -2,24 +2,49 @@
 
 use crate::{Device, DeviceError};
 
-/// A backend with what it needs to open its device.
+/// A backend with what it needs to open its device. Opening again opens the same device.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Backend {
     /// A scripted hand on a simulated delta device.
     #[cfg(feature = "simulated")]
     Simulated(crate::simulated::Settings),
+    /// delta, omega, sigma, lambda and Falcon, through the maker's SDK.
+    #[cfg(feature = "force_dimension")]
+    ForceDimension(crate::force_dimension::Settings),
+    /// Inverse3 and its relatives, through the maker's service.
+    #[cfg(feature = "haply")]
+    Haply(crate::haply::Settings),
+    /// Self-built devices at a serial port.
+    #[cfg(feature = "serial")]
+    Serial(crate::serial::Settings),
+    /// SpaceMouse and its relatives: a virtual handle without motors.
+    #[cfg(feature = "spacemouse")]
+    SpaceMouse(crate::spacemouse::Settings),
 }
 
 impl Backend {
-    /// Opens the device. Not RT safe.
+    /// Opens the device, motors off. Not RT safe.
     ///
     /// # Errors
-    /// What the backend cannot work with.
-    pub fn open(self) -> Result<Box<dyn Device>, DeviceError> {
-        match self {
+    /// What was looked for, what was found, and what to do.
+    pub fn open(&self) -> Result<Box<dyn Device>, DeviceError> {
+        Ok(match self.clone() {
             #[cfg(feature = "simulated")]
-            Backend::Simulated(settings) => Ok(Box::new(crate::simulated::SimulatedDevice::open(settings)?)),
-        }
+            Backend::Simulated(settings) => Box::new(crate::simulated::SimulatedDevice::open(settings)?),
+            #[cfg(feature = "force_dimension")]
+            Backend::ForceDimension(settings) => Box::new(crate::force_dimension::open(settings)?),
+            #[cfg(feature = "haply")]
+            Backend::Haply(settings) => Box::new(crate::haply::open(settings)?),
+            #[cfg(feature = "serial")]
+            Backend::Serial(settings) => Box::new(crate::serial::open(settings)?),
+            #[cfg(feature = "spacemouse")]
+            Backend::SpaceMouse(settings) => Box::new(crate::spacemouse::open(settings)?),
+        })
+    }
+
+    /// What a motor loop calls to open the device, at its start and after a loss.
+    pub fn opener(self) -> impl FnMut() -> Result<Box<dyn Device>, DeviceError> + Send + 'static {
+        move || self.open()
     }
 }

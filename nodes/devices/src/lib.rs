@@ -3,31 +3,43 @@
 //!
 //! ```text
 //!             newest wins (latest)                      every sample, in order (samples)
-//! ROS thread ---- contact law, servo force ---> motor loop ---- pose, velocity, force ---> publisher thread
-//!                                                 |  ^
-//!                                          command|  |read
-//!                                                 v  |
-//!                                                Device
+//! ROS thread ---- contact law, servo wrench --> motor loop ---- pose, velocity, wrench --> publisher thread
+//!       |                                       |        ^
+//!       +---- requests, answered at once ---->  | source | read
+//!                                               | safety |
+//!                                               v        |
+//!                                               Device --+
 //! ```
 //!
 //! The motor loop waits for nobody and allocates nothing: it takes the newest contact law when there is one and
-//! evaluates it itself, so a late message costs freshness of the law and never a period of the loop.
+//! evaluates it itself ([`source`]), so a late message costs freshness of the law and never a period of the loop. What
+//! reaches the motors has passed the [`safety`] layer, whatever its source and whatever the backend.
 
 mod backend;
 mod device;
+mod emergency;
 mod error;
-mod force_choice;
 #[cfg(feature = "force_dimension")]
 pub mod force_dimension;
 #[cfg(feature = "haply")]
 pub mod haply;
 mod latest;
 mod motor_loop;
+mod motor_thread;
 mod operating;
+mod operation;
 mod realtime;
+mod requests;
+pub mod safety;
 mod samples;
+#[cfg(feature = "serial")]
+pub mod serial;
+mod shared;
 #[cfg(feature = "simulated")]
 pub mod simulated;
+pub mod source;
+#[cfg(feature = "spacemouse")]
+pub mod spacemouse;
 mod stamp_clock;
 mod tick;
 
@@ -36,10 +48,14 @@ pub use device::{
     Description, Device, DeviceLimits, DeviceState, Found, MAX_JOINTS, MAX_STATUS, MotorsOff, Workspace,
     Wrench,
 };
+pub use emergency::{is_motor_loop, motors_off_at_once};
 pub use error::DeviceError;
-pub use force_choice::{ForceOrigin, ForceSource, LawCommand, ServoCommand};
 pub use motor_loop::{MotorError, MotorLoop, MotorSettings};
 pub use operating::{OperatingState, StateCommand};
-pub use realtime::{Scheduling, monotonic_ns};
+pub use realtime::{Scheduling, monotonic_ns, sleep_until};
+pub use requests::{Answer, Request};
+pub use safety::{CheckedSettings, FaultCause, LimitsHit, SafetyError, SafetySettings};
 pub use samples::{SampleReceiver, SampleSender, samples};
-pub use tick::{Counts, Sample};
+pub use shared::{Counts, MotorStatus};
+pub use source::{Axes, ForceOrigin, ForceSource, LawCommand, ServoCommand, SourceMode};
+pub use tick::Sample;

@@ -1,44 +1,53 @@
-//! The thread that drives the motors at a fixed rate.
+//! The thread that drives the motors at a fixed rate, as its owner sees it.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::atomic::Ordering::Relaxed;
 use std::thread::JoinHandle;
 
 use thiserror::Error;
 
-use crate::force_choice::{Commands, Moment};
 use crate::latest::{Sender, latest};
-use crate::realtime::{monotonic_ns, request_fifo, sleep_until, system_ns};
-use crate::stamp_clock::StampClock;
-use crate::tick::Ticker;
-use crate::tick::{Counters, ForceLimit};
-use crate::{Counts, Device, DeviceError, ForceSource, LawCommand, SampleSender, Scheduling, ServoCommand};
+use crate::motor_thread::{self, MotorThread};
+use crate::realtime::monotonic_ns;
+use crate::requests::{Asker, requests};
+use crate::safety::CheckedSettings;
+use crate::shared::Shared;
+use crate::{
+    Answer, Counts, Description, Device, DeviceError, ForceSource, LawCommand, MotorStatus, Request,
+    SampleSender, Scheduling, ServoCommand, StateCommand,
+};
 
 /// How the loop runs.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MotorSettings {
     /// Periods per second, 10 to 4000.
     pub rate_hz: f64,
-    /// The largest force on the hand, N, >= 0; the device's own limit holds as well.
-    pub max_force_n: f64,
-    /// Who decides on the force.
-    pub source: ForceSource,
     /// `SCHED_FIFO` priority to ask for, 1 to 99.
     pub fifo_priority: i32,
+    /// CPU to stay on; none: any.
+    pub cpu: Option<usize>,
+    /// Who decides on the force.
+    pub source: ForceSource,
+    /// What stands between any source and the motors.
+    pub safety: CheckedSettings,
+    /// Motors on at the start.
+    pub enable_at_start: bool,
+    /// The device carries its own weight, where it can.
+    pub gravity_compensation: bool,
 }
 
 /// Why there is no motor loop, or none any more.
 #[derive(Debug, Error)]
 pub enum MotorError {
     /// The device says it can push with a force that no motor has.
-    #[error(
-        "the {device} device says that its largest force is {max_force_n} N; accepted is a finite number > 0"
-    )]
+    #[error("the {device} device says that its largest {what} is {value}; accepted is a finite number > 0")]
     Limits {
         /// The backend.
-        device: String,
+        device: &'static str,
+        /// Force, torque, gripper force, or an extent of the workspace.
+        what: &'static str,
         /// What it says.
-        max_force_n: f64,
+        value: f64,
     },
     /// A rate that is not one.
     #[error("a motor loop of {rate_hz} Hz: accepted is 10 to 4000")]
@@ -49,7 +58,7 @@ pub enum MotorError {
     /// The operating system gave no thread.
     #[error("the motor loop's thread did not start: {0}")]
     Thread(#[from] std::io::Error),
-    /// The device failed while the loop ran; the motors were switched off.
+    /// The device cannot be opened, or does not confirm that its motors are off.
     #[error(transparent)]
     Device(#[from] DeviceError),
     /// The loop's thread panicked; the motors were switched off on the way out.
@@ -57,104 +66,128 @@ pub enum MotorError {
     Panicked,
 }
 
-/// A running motor loop: a thread of its own that in every period reads the device, computes the force and commands it.
+/// A running motor loop: a thread of its own that in every period reads the device, chooses the force, makes it safe and
+/// commands it.
 ///
 /// Deadlines are absolute (`clock_nanosleep` with `TIMER_ABSTIME` on the monotonic clock), so a late period does not
 /// shift the ones after it. The thread takes no lock, allocates nothing and calls nothing that waits, but for its own
-/// sleep; it asks for `SCHED_FIFO`. Dropping this value stops it and takes the force away.
+/// sleep, as long as there is a device; a device that is lost is a fault, and the thread then tries to open it again.
+/// Dropping this value brings the force to zero at the slew limit and switches the motors off.
 pub struct MotorLoop {
     laws: Sender<LawCommand>,
     servo: Sender<ServoCommand>,
-    limit: Arc<ForceLimit>,
-    counters: Arc<Counters>,
-    stop: Arc<AtomicBool>,
+    asker: Asker,
+    shared: Arc<Shared>,
     scheduling: Scheduling,
+    description: Description,
     // Joined in drop, before the senders go: the thread must not be the one that frees what they have sent.
     thread: Option<JoinHandle<Result<(), DeviceError>>>,
 }
 
 impl MotorLoop {
-    /// Starts the loop. Samples go to `samples`, one for each period.
+    /// Opens the device and starts the loop. `open` is called again, in the loop's thread, when the device is lost.
+    /// Samples go to `samples`, one for each period.
     ///
     /// # Errors
     /// [`MotorError`] when settings or device are unusable, or there is no thread to be had.
     pub fn start(
-        device: Box<dyn Device>,
+        mut open: impl FnMut() -> Result<Box<dyn Device>, DeviceError> + Send + 'static,
         settings: MotorSettings,
         samples: SampleSender,
     ) -> Result<MotorLoop, MotorError> {
-        let MotorSettings { rate_hz, max_force_n, source, fifo_priority } = settings;
-        if !(10.0..=4000.0).contains(&rate_hz) {
-            return Err(MotorError::Rate { rate_hz });
+        if !(10.0..=4000.0).contains(&settings.rate_hz) {
+            return Err(MotorError::Rate { rate_hz: settings.rate_hz });
         }
-        let description = device.description();
-        let device_n = description.limits.max_force_n.unwrap_or(f64::MIN_POSITIVE);
-        if !(device_n.is_finite() && device_n > 0.0) {
-            return Err(MotorError::Limits { device: description.backend.to_owned(), max_force_n: device_n });
-        }
+        let device = open()?;
+        let description = device.description().clone();
+        check_limits(&description)?;
         let (law_sender, laws) = latest();
         let (servo_sender, servo) = latest();
-        let limit = Arc::new(ForceLimit::new(max_force_n));
-        let counters = Arc::new(Counters::default());
-        let stop = Arc::new(AtomicBool::new(false));
-        let ticker = Ticker::new(device, Commands { source, laws, servo }, limit.clone(), counters.clone());
-        let period_ns = (1e9 / rate_hz).round() as u64;
+        let (asker, askee) = requests();
+        let shared = Arc::new(Shared::new(settings.safety.max_force_n, monotonic_ns()));
+        let MotorSettings { fifo_priority: priority, cpu, enable_at_start, gravity_compensation, .. } =
+            settings;
+        let motor = MotorThread::new(device, Box::new(open), settings, laws, servo, askee, shared.clone());
         let (report, reported) = crossbeam::channel::bounded(1);
-        let shared = (stop.clone(), counters.clone());
         let thread = std::thread::Builder::new().name("motor_loop".to_owned()).spawn(move || {
             // The receiver waits below, so there is room and somebody to take it.
-            let _ = report.send(request_fifo(fifo_priority));
-            let (stop, counters) = shared;
-            run(ticker, period_ns, samples, &stop, &counters)
+            let _ = report.send(Scheduling::request(priority, cpu));
+            motor_thread::run(motor, samples)
         })?;
         let scheduling = reported.recv().map_err(|_| MotorError::Panicked)?;
-        Ok(MotorLoop {
+        let mut motor = MotorLoop {
             laws: law_sender,
             servo: servo_sender,
-            limit,
-            counters,
-            stop,
+            asker,
+            shared,
             scheduling,
+            description,
             thread: Some(thread),
-        })
+        };
+        // Devices that carry no weight refuse, which is as good.
+        motor.request(Request::GravityCompensation(gravity_compensation));
+        if enable_at_start {
+            motor.request(Request::State(StateCommand::Enable));
+        }
+        Ok(motor)
     }
 
-    /// Gives the loop a newer contact law.
-    pub fn send_law(&mut self, command: LawCommand) {
-        self.laws.send(command);
-    }
-
-    /// Gives the loop a newer force.
-    pub fn send_servo(&mut self, command: ServoCommand) {
-        self.servo.send(command);
-    }
-
-    /// Changes the largest force on the hand, N; what is not a positive number lets no force through.
-    pub fn set_max_force_n(&self, max_force_n: f64) {
-        self.limit.set(max_force_n);
-    }
-
-    /// What has been counted so far.
-    pub fn counts(&self) -> Counts {
-        self.counters.counts()
+    /// The device.
+    pub fn description(&self) -> &Description {
+        &self.description
     }
 
     /// How the operating system runs the loop.
-    pub fn scheduling(&self) -> Scheduling {
-        self.scheduling
+    pub fn scheduling(&self) -> &Scheduling {
+        &self.scheduling
     }
 
-    /// False once the loop has ended by itself; [`stop`](MotorLoop::stop) then says why.
+    /// Hands over a contact law. The newest one wins.
+    pub fn send_law(&mut self, law: LawCommand) {
+        self.laws.send(law);
+    }
+
+    /// Hands over a commanded wrench. The newest one wins.
+    pub fn send_servo(&mut self, servo: ServoCommand) {
+        self.servo.send(servo);
+    }
+
+    /// Asks something of the loop and waits for its answer, at most 100 ms.
+    pub fn request(&mut self, request: Request) -> Answer {
+        self.asker.ask(request)
+    }
+
+    /// Says that the owner lives. To be called more often than [`SafetySettings::ros_timeout_s`].
+    pub fn beat(&self) {
+        self.shared.beat(monotonic_ns());
+    }
+
+    /// Changes the largest force, N. From the next period on.
+    pub fn set_max_force_n(&self, max_force_n: f64) {
+        self.shared.set_max_force_n(max_force_n);
+    }
+
+    /// The operating state and what goes with it.
+    pub fn status(&self) -> MotorStatus {
+        self.shared.status()
+    }
+
+    /// What the loop has counted.
+    pub fn counts(&self) -> Counts {
+        self.shared.counters.counts()
+    }
+
+    /// False when the loop has ended: after a panic, or [`motors_off_at_once`](crate::motors_off_at_once).
     pub fn is_running(&self) -> bool {
         self.thread.as_ref().is_some_and(|thread| !thread.is_finished())
     }
 
-    /// Takes the force away and ends the loop. Returns within about a period; a second call does nothing.
+    /// Brings the force to zero at the slew limit, switches the motors off and ends the loop; a second call does nothing.
     ///
     /// # Errors
-    /// What ended the loop before, or what the device said when it was switched off.
+    /// What the device said when it was switched off.
     pub fn stop(&mut self) -> Result<(), MotorError> {
-        self.stop.store(true, Relaxed);
+        self.shared.stop.store(true, Relaxed);
         match self.thread.take().map(JoinHandle::join) {
             None => Ok(()),
             Some(Ok(ended)) => Ok(ended?),
@@ -165,60 +198,27 @@ impl MotorLoop {
 
 impl Drop for MotorLoop {
     fn drop(&mut self) {
-        // Whoever wants to know why it ended calls stop first.
+        // Whoever wants to know how it ended calls stop first.
         let _ = self.stop();
     }
 }
 
-fn run(
-    mut ticker: Ticker,
-    period_ns: u64,
-    mut samples: SampleSender,
-    stop: &AtomicBool,
-    counters: &Counters,
-) -> Result<(), DeviceError> {
-    let mut clock = StampClock::new(monotonic_ns(), system_ns());
-    let mut deadline_ns = monotonic_ns() + period_ns;
-    loop {
-        sleep_until(deadline_ns);
-        if stop.load(Relaxed) {
-            return ticker.off();
-        }
-        let start_ns = monotonic_ns();
-        let late_ns = start_ns.saturating_sub(deadline_ns);
-        if late_ns > period_ns / 2 {
-            Counters::add(&counters.late_ticks, 1);
-        }
-        counters.latest_ns.fetch_max(late_ns, Relaxed);
-        let now = Moment { monotonic_ns: start_ns, stamp_ns: clock.stamp(start_ns, system_ns()) };
-        if let Some(sample) = ticker.tick(now)?
-            && !samples.send(sample)
+/// A device without motors is one; motors without a strength are not.
+pub(crate) fn check_limits(description: &Description) -> Result<(), MotorError> {
+    let limits = &description.limits;
+    let numbers = [
+        ("force [N]", limits.max_force_n),
+        ("torque [N m]", limits.max_torque_n_m),
+        ("gripper force [N]", limits.max_gripper_force_n),
+        ("workspace radius [m]", Some(limits.workspace.radius_m)),
+        ("workspace height [m]", Some(limits.workspace.height_m)),
+    ];
+    for (what, value) in numbers {
+        if let Some(value) = value
+            && !(value.is_finite() && value > 0.0)
         {
-            Counters::add(&counters.lost_samples, 1);
+            return Err(MotorError::Limits { device: description.backend, what, value });
         }
-        let (next_ns, skipped) = next_deadline(deadline_ns, period_ns, monotonic_ns());
-        Counters::add(&counters.skipped_ticks, skipped);
-        deadline_ns = next_ns;
     }
-}
-
-/// The deadline after `deadline_ns` and how many are left out: those that are a whole period past at `now_ns`. Running
-/// them in a burst would command old positions' forces one after the other.
-fn next_deadline(deadline_ns: u64, period_ns: u64, now_ns: u64) -> (u64, u64) {
-    let next_ns = deadline_ns + period_ns;
-    let skipped = now_ns.saturating_sub(next_ns) / period_ns;
-    (next_ns + skipped * period_ns, skipped)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn deadlines_stay_on_the_grid_and_whole_missed_periods_are_left_out() {
-        assert_eq!(next_deadline(1000, 100, 1010), (1100, 0)); // in time
-        assert_eq!(next_deadline(1000, 100, 1150), (1100, 0)); // late: the next one runs at once
-        assert_eq!(next_deadline(1000, 100, 1200), (1200, 1));
-        assert_eq!(next_deadline(1000, 100, 1437), (1400, 3));
-    }
+    Ok(())
 }

@@ -1,47 +1,125 @@
-//! The three things the motor loop asks of the operating system: the time, to sleep until a time, and priority.
+//! What the motor loop asks of the operating system: the time, to sleep until a time, priority, memory that stays, a CPU.
 
 #![expect(
     unsafe_code,
-    reason = "clock_gettime, clock_nanosleep and pthread_setschedparam have no safe wrapper in std"
+    reason = "clock_gettime, clock_nanosleep, pthread_setschedparam, mlockall and sched_setaffinity have no safe wrapper in std"
 )]
 
 use std::fmt;
+use std::io;
 
-/// How the operating system runs the motor loop's thread.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scheduling {
-    /// `SCHED_FIFO`: it runs before all ordinary threads.
-    Fifo {
-        /// 1 to 99.
-        priority: i32,
-    },
-    /// Like any other thread, because real-time priority was not permitted.
-    Ordinary {
-        /// The operating system's error number.
-        errno: i32,
-    },
+/// How the operating system runs the motor loop's thread. What was refused is said with its reason and its remedy.
+#[derive(Debug)]
+pub struct Scheduling {
+    priority: i32,
+    fifo: io::Result<()>,
+    memory: io::Result<()>,
+    cpu: Option<(usize, io::Result<()>)>,
+}
+
+impl Scheduling {
+    /// Asks for everything, for the calling thread; the memory is the whole process's.
+    ///
+    /// `priority` is that of `SCHED_FIFO`, 1 to 99: the thread then runs before all ordinary threads. Without a `cpu`
+    /// it may run on any.
+    pub fn request(priority: i32, cpu: Option<usize>) -> Scheduling {
+        Scheduling {
+            priority,
+            fifo: request_fifo(priority),
+            memory: lock_memory(),
+            cpu: cpu.map(|cpu| (cpu, pin_to(cpu))),
+        }
+    }
+
+    /// Whether all that was asked for was granted.
+    pub fn is_granted(&self) -> bool {
+        self.fifo.is_ok() && self.memory.is_ok() && self.cpu.as_ref().is_none_or(|(_, pinned)| pinned.is_ok())
+    }
 }
 
 impl fmt::Display for Scheduling {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Scheduling::Fifo { priority } => write!(f, "SCHED_FIFO priority {priority}"),
-            Scheduling::Ordinary { errno } => write!(
+        match &self.fifo {
+            Ok(()) => write!(f, "SCHED_FIFO priority {}", self.priority)?,
+            Err(error) => write!(
                 f,
-                "ordinary priority: SCHED_FIFO was refused ({}); allow it with an rtprio limit for this user",
-                std::io::Error::from_raw_os_error(*errno)
-            ),
+                "ordinary priority: SCHED_FIFO was refused ({error}); allow it with an rtprio limit for this user"
+            )?,
+        }
+        match &self.memory {
+            Ok(()) => write!(f, "; memory locked")?,
+            Err(error) => {
+                write!(f, "; memory not locked ({error}); allow it with a memlock limit for this user")?
+            }
+        }
+        match &self.cpu {
+            None => Ok(()),
+            Some((cpu, Ok(()))) => write!(f, "; on CPU {cpu}"),
+            Some((cpu, Err(error))) => write!(f, "; not bound to CPU {cpu} ({error})"),
         }
     }
 }
 
-/// Asks for `SCHED_FIFO` for the calling thread.
-pub(crate) fn request_fifo(priority: i32) -> Scheduling {
+fn request_fifo(priority: i32) -> io::Result<()> {
     let parameter = libc::sched_param { sched_priority: priority };
     // SAFETY: pthread_self is always valid, and the parameter outlives the call.
     let errno =
         unsafe { libc::pthread_setschedparam(libc::pthread_self(), libc::SCHED_FIFO, &raw const parameter) };
-    if errno == 0 { Scheduling::Fifo { priority } } else { Scheduling::Ordinary { errno } }
+    if errno == 0 { Ok(()) } else { Err(io::Error::from_raw_os_error(errno)) }
+}
+
+fn lock_memory() -> io::Result<()> {
+    // With a limit that is too small MCL_FUTURE would make later allocations fail instead of this call.
+    let mut limit = libc::rlimit { rlim_cur: 0, rlim_max: 0 };
+    // SAFETY: the pointer is valid for the call.
+    if unsafe { libc::getrlimit(libc::RLIMIT_MEMLOCK, &raw mut limit) } != 0 {
+        return Err(io::Error::last_os_error());
+    }
+    if limit.rlim_cur != libc::RLIM_INFINITY && !may_lock_all() {
+        return Err(io::Error::other(format!("the limit is {} bytes", limit.rlim_cur)));
+    }
+    // On fault: what was used once stays, and the middleware's many unused stacks are not filled in.
+    // SAFETY: the call takes flags only.
+    if unsafe { libc::mlockall(libc::MCL_CURRENT | libc::MCL_FUTURE | libc::MCL_ONFAULT) } == 0 {
+        Ok(())
+    } else {
+        Err(io::Error::last_os_error())
+    }
+}
+
+/// Whether this process may lock memory whatever the limit is: `CAP_IPC_LOCK`.
+fn may_lock_all() -> bool {
+    const CAP_IPC_LOCK: u32 = 14;
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let effective = status.lines().find_map(|line| line.strip_prefix("CapEff:"));
+    let bits = effective.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok());
+    bits.is_some_and(|bits| bits & (1 << CAP_IPC_LOCK) != 0)
+}
+
+fn pin_to(cpu: usize) -> io::Result<()> {
+    if cpu >= libc::CPU_SETSIZE as usize {
+        return Err(io::Error::from_raw_os_error(libc::EINVAL));
+    }
+    // SAFETY: a set of CPUs is plain bits, and zero is the empty set.
+    let mut set: libc::cpu_set_t = unsafe { std::mem::zeroed() };
+    // SAFETY: the index was checked above.
+    unsafe { libc::CPU_SET(cpu, &mut set) };
+    // SAFETY: 0 is the calling thread; the set outlives the call and the size is its own.
+    let refused = unsafe { libc::sched_setaffinity(0, size_of::<libc::cpu_set_t>(), &raw const set) } != 0;
+    if refused { Err(io::Error::last_os_error()) } else { Ok(()) }
+}
+
+/// Keeps the calling thread's signals for other threads: a handler that waits for the motor loop must not run on it.
+pub(crate) fn block_signals() {
+    // SAFETY: an empty set is made before it is filled, and both pointers are valid for the calls.
+    unsafe {
+        let mut set: libc::sigset_t = std::mem::zeroed();
+        libc::sigemptyset(&raw mut set);
+        for number in [libc::SIGINT, libc::SIGTERM, libc::SIGHUP, libc::SIGQUIT] {
+            libc::sigaddset(&raw mut set, number);
+        }
+        libc::pthread_sigmask(libc::SIG_BLOCK, &raw const set, std::ptr::null_mut());
+    }
 }
 
 /// Time since some fixed moment, ns; it never goes back. RT safe.
@@ -64,7 +142,7 @@ fn read_clock(clock: libc::clockid_t) -> libc::timespec {
 }
 
 /// Sleeps until the monotonic clock shows `deadline_ns`; returns at once when that is past. RT safe.
-pub(crate) fn sleep_until(deadline_ns: u64) {
+pub fn sleep_until(deadline_ns: u64) {
     let deadline = libc::timespec {
         tv_sec: (deadline_ns / 1_000_000_000) as libc::time_t,
         tv_nsec: (deadline_ns % 1_000_000_000) as libc::c_long,
@@ -98,8 +176,26 @@ mod tests {
     }
 
     #[test]
-    fn a_refused_priority_says_how_to_get_it() {
-        let text = Scheduling::Ordinary { errno: libc::EPERM }.to_string();
-        assert!(text.contains("SCHED_FIFO") && text.contains("rtprio"), "{text}");
+    fn what_is_refused_says_how_to_get_it() {
+        let refused = || Err(io::Error::from_raw_os_error(libc::EPERM));
+        let scheduling =
+            Scheduling { priority: 50, fifo: refused(), memory: refused(), cpu: Some((77, refused())) };
+        let text = scheduling.to_string();
+        assert!(!scheduling.is_granted());
+        for word in ["SCHED_FIFO", "rtprio", "memlock", "CPU 77"] {
+            assert!(text.contains(word), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_thread_on_a_cpu_stays_there_and_a_cpu_that_is_not_there_is_refused() {
+        std::thread::spawn(|| {
+            pin_to(0).unwrap();
+            // SAFETY: the call has no preconditions.
+            assert_eq!(unsafe { libc::sched_getcpu() }, 0);
+            assert!(pin_to(100_000).is_err());
+        })
+        .join()
+        .unwrap();
     }
 }

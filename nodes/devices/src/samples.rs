@@ -68,7 +68,26 @@ impl SampleReceiver {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tick::tests::sample;
+    use crate::{DeviceState, FaultCause, ForceOrigin, LimitsHit, OperatingState, Wrench};
+    use rhombus_chain::Pose;
+
+    /// A sample that says nothing but its stamp.
+    fn sample(stamp_ns: i64) -> Sample {
+        Sample {
+            stamp_ns,
+            monotonic_ns: 0,
+            late_ns: 0,
+            work_ns: 0,
+            state: DeviceState::at_rest(Pose::IDENTITY),
+            wrench: Wrench::ZERO,
+            origin: ForceOrigin::Nobody,
+            depth_m: 0.0,
+            operating: OperatingState::Disabled,
+            fault: None::<FaultCause>,
+            limits_hit: LimitsHit::NONE,
+            energy: crate::safety::Energy::default(),
+        }
+    }
 
     #[test]
     fn samples_come_out_in_order_and_a_full_ring_refuses_the_newest() {

@@ -1,0 +1,502 @@
+//! The operating state in action: what requests and faults do to it, period by period. Everything here is RT safe but
+//! what a request asks of the device itself.
+
+use std::sync::Arc;
+
+use crate::requests::Askee;
+use crate::safety::{FaultCause, FaultLatch};
+use crate::shared::Shared;
+use crate::source::SourceMode;
+use crate::{Answer, Device, DeviceError, DeviceState, MotorStatus, OperatingState, Request, StateCommand};
+
+/// Periods in a row with readings that are not finite before that is a fault.
+const UNUSABLE_READINGS: u32 = 10;
+/// Time that a device gets after enabling before motors that are off are a fault, ns.
+const MOTORS_ON_TIME_NS: u64 = 200_000_000;
+
+/// The operating state, the faults, and what somebody asked for.
+pub(crate) struct Operation {
+    requests: Askee,
+    shared: Arc<Shared>,
+    owner_timeout_ns: u64,
+    operating: OperatingState,
+    mode: SourceMode,
+    faults: FaultLatch,
+    emergency_stop: bool,
+    owner_is_silent: bool,
+    has_device: bool,
+    is_homed: bool,
+    is_busy: bool,
+    home: bool,
+    /// Whether the device's motors are on, as far as this loop has switched them.
+    motors_on: bool,
+    enabled_ns: u64,
+    unusable: u32,
+}
+
+impl Operation {
+    pub(crate) fn new(requests: Askee, shared: Arc<Shared>, owner_timeout_s: f64) -> Operation {
+        Operation {
+            requests,
+            shared,
+            owner_timeout_ns: (owner_timeout_s * 1e9) as u64,
+            operating: OperatingState::Disabled,
+            mode: SourceMode::Follow,
+            faults: FaultLatch::default(),
+            emergency_stop: false,
+            owner_is_silent: false,
+            has_device: true,
+            is_homed: false,
+            is_busy: false,
+            home: false,
+            motors_on: false,
+            enabled_ns: 0,
+            unusable: 0,
+        }
+    }
+
+    /// Whether the motors are on, and whether they may push.
+    pub(crate) fn state(&self) -> OperatingState {
+        self.operating
+    }
+
+    /// What the motors do with the sources.
+    pub(crate) fn mode(&self) -> SourceMode {
+        self.mode
+    }
+
+    /// The first thing that went wrong since the last command that cleared it.
+    pub(crate) fn fault(&self) -> Option<FaultCause> {
+        self.faults.cause()
+    }
+
+    /// Does what was asked for since the last time. `device` is none while there is none.
+    ///
+    /// # Errors
+    /// The device is lost.
+    pub(crate) fn serve(
+        &mut self,
+        mut device: Option<&mut (dyn Device + 'static)>,
+        now_ns: u64,
+    ) -> Result<(), DeviceError> {
+        while let Some(request) = self.requests.take() {
+            let done = self.execute(request, device.as_deref_mut(), now_ns);
+            self.publish();
+            let state = self.operating;
+            let is_accepted = matches!(done, Ok(true));
+            self.requests.answer(if is_accepted { Answer::Accepted(state) } else { Answer::Refused(state) });
+            match done {
+                Ok(_) | Err(DeviceError::Unsupported { .. }) => {}
+                Err(lost) => return Err(lost),
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether it was accepted.
+    fn execute(
+        &mut self,
+        request: Request,
+        device: Option<&mut (dyn Device + 'static)>,
+        now_ns: u64,
+    ) -> Result<bool, DeviceError> {
+        match request {
+            Request::State(command) => self.command(command, device, now_ns),
+            Request::Free => Ok(self.change_mode(SourceMode::Free)),
+            Request::Hold => Ok(self.change_mode(SourceMode::Hold)),
+            Request::Follow => Ok(self.change_mode(SourceMode::Follow)),
+            Request::GravityCompensation(on) => match device {
+                Some(device) => device.set_gravity_compensation(on).map(|()| true),
+                None => Ok(false),
+            },
+            Request::EmergencyStop(pressed) => {
+                self.emergency_stop = pressed;
+                if pressed {
+                    self.raise(FaultCause::EmergencyStop);
+                }
+                Ok(true)
+            }
+        }
+    }
+
+    fn change_mode(&mut self, mode: SourceMode) -> bool {
+        let is_enabled = self.operating == OperatingState::Enabled;
+        if is_enabled {
+            self.mode = mode;
+        }
+        is_enabled
+    }
+
+    fn command(
+        &mut self,
+        command: StateCommand,
+        device: Option<&mut (dyn Device + 'static)>,
+        now_ns: u64,
+    ) -> Result<bool, DeviceError> {
+        let Some(next) = self.operating.after(command) else { return Ok(false) };
+        match command {
+            StateCommand::Enable => {
+                let (Some(device), None) = (device, self.present()) else { return Ok(false) };
+                // Motors whose force is still on its way to zero after a disable are on.
+                if !self.motors_on {
+                    device.enable()?;
+                    self.motors_on = true;
+                    self.enabled_ns = now_ns;
+                }
+                self.faults = FaultLatch::default();
+                self.mode = SourceMode::Follow;
+            }
+            StateCommand::Resume => self.mode = SourceMode::Follow,
+            // Allowed whatever is wrong; what is wrong then keeps the motors from being enabled.
+            StateCommand::Disable => self.faults = FaultLatch::default(),
+            StateCommand::Pause => {}
+            StateCommand::Home => {
+                let Some(device) = device else { return Ok(false) };
+                self.home = device.description().needs_homing;
+                self.is_busy = self.home;
+            }
+            // The reference position is the device's own; it forgets it when it is switched off.
+            StateCommand::Unhome => return Ok(false),
+        }
+        self.operating = next;
+        Ok(true)
+    }
+
+    /// What is wrong at this moment, whatever has been latched.
+    fn present(&self) -> Option<FaultCause> {
+        if self.emergency_stop {
+            Some(FaultCause::EmergencyStop)
+        } else if !self.has_device {
+            Some(FaultCause::DeviceLost)
+        } else if self.owner_is_silent {
+            Some(FaultCause::RosThreadHung)
+        } else {
+            None
+        }
+    }
+
+    /// Switches motors that may not push off, once there is no force left that would step; `last` is when nobody may
+    /// switch them on again.
+    ///
+    /// # Errors
+    /// The device is lost.
+    pub(crate) fn switch_motors(
+        &mut self,
+        device: &mut dyn Device,
+        force_is_zero: bool,
+        last: bool,
+    ) -> Result<(), DeviceError> {
+        if self.motors_on && force_is_zero && (last || !self.operating.has_motors_on()) {
+            device.disable()?;
+            self.motors_on = false;
+        }
+        Ok(())
+    }
+
+    /// Whether the device's motors are on.
+    pub(crate) fn motors_are_on(&self) -> bool {
+        self.motors_on
+    }
+
+    /// A fault, from any state. The first one stays.
+    pub(crate) fn raise(&mut self, cause: FaultCause) {
+        self.faults.raise(cause);
+        self.operating = OperatingState::Fault;
+        (self.home, self.is_busy) = (false, false);
+    }
+
+    /// Looks at what a reading says about the device, and whether the owner lives.
+    pub(crate) fn watch(&mut self, state: &DeviceState, now_ns: u64) {
+        self.unusable = 0;
+        self.is_homed = state.homed;
+        let settled = now_ns.saturating_sub(self.enabled_ns) >= MOTORS_ON_TIME_NS;
+        if let Some(reason) = state.motors_off
+            && self.operating.has_motors_on()
+            && settled
+        {
+            self.raise(FaultCause::DeviceMotorsOff(reason));
+        }
+        self.watch_owner(now_ns);
+    }
+
+    /// A reading that is not finite: one may be a glitch, several in a row are a fault.
+    pub(crate) fn watch_unusable(&mut self, now_ns: u64) {
+        self.unusable += 1;
+        if self.unusable >= UNUSABLE_READINGS && self.operating.has_motors_on() {
+            self.raise(FaultCause::NotFinite);
+        }
+        self.watch_owner(now_ns);
+    }
+
+    fn watch_owner(&mut self, now_ns: u64) {
+        self.owner_is_silent = self.shared.silence_ns(now_ns) > self.owner_timeout_ns;
+        if self.owner_is_silent && self.operating.has_motors_on() {
+            self.raise(FaultCause::RosThreadHung);
+        }
+    }
+
+    /// The device is gone: a fault, also when its motors were off, because nothing works any more.
+    pub(crate) fn lose_device(&mut self) {
+        (self.has_device, self.is_homed, self.motors_on) = (false, false, false);
+        self.raise(FaultCause::DeviceLost);
+        self.publish();
+    }
+
+    /// The device is back. The fault stays until a command.
+    pub(crate) fn find_device(&mut self) {
+        self.has_device = true;
+        self.publish();
+    }
+
+    /// Whether somebody wants the device homed. True once.
+    pub(crate) fn take_homing(&mut self) -> bool {
+        std::mem::take(&mut self.home)
+    }
+
+    /// Homing has ended.
+    pub(crate) fn end_homing(&mut self, result: Result<(), DeviceError>) {
+        self.is_busy = false;
+        if result.is_err() {
+            self.raise(FaultCause::HomingFailed);
+        }
+        self.publish();
+    }
+
+    /// Shows the state to the owner.
+    pub(crate) fn publish(&self) {
+        self.shared.set_status(MotorStatus {
+            operating: self.operating,
+            fault: self.faults.cause(),
+            is_homed: self.is_homed,
+            is_busy: self.is_busy,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::OperatingState::{Disabled, Enabled, Fault, Paused};
+    use super::StateCommand::{Disable, Enable, Home, Pause, Resume};
+    use super::*;
+    use crate::requests::{Asker, requests};
+    use crate::{Description, DeviceLimits, MotorsOff, Workspace, Wrench};
+    use glam::DVec3;
+    use rhombus_chain::Pose;
+
+    const MS: u64 = 1_000_000;
+
+    struct Motors {
+        description: Description,
+        on: bool,
+        homes: bool,
+    }
+
+    impl Device for Motors {
+        fn description(&self) -> &Description {
+            &self.description
+        }
+        fn read(&mut self) -> Result<DeviceState, DeviceError> {
+            Ok(DeviceState::at_rest(Pose::IDENTITY))
+        }
+        fn command(&mut self, _: &Wrench) -> Result<(), DeviceError> {
+            Ok(())
+        }
+        fn enable(&mut self) -> Result<(), DeviceError> {
+            self.on = true;
+            Ok(())
+        }
+        fn disable(&mut self) -> Result<(), DeviceError> {
+            self.on = false;
+            Ok(())
+        }
+        fn home(&mut self) -> Result<(), DeviceError> {
+            if self.homes { Ok(()) } else { Err(DeviceError::Lost { device: "motors", reason: "stuck" }) }
+        }
+    }
+
+    struct Bench {
+        operation: Operation,
+        motors: Motors,
+        shared: Arc<Shared>,
+        // Kept so that the queue has two ends.
+        _asker: Asker,
+    }
+
+    fn bench() -> Bench {
+        let (asker, askee) = requests();
+        let shared = Arc::new(Shared::new(20.0, 0));
+        let limits = DeviceLimits {
+            max_force_n: Some(20.0),
+            max_torque_n_m: None,
+            max_gripper_force_n: None,
+            workspace: Workspace { centre: DVec3::ZERO, radius_m: 0.1, height_m: 0.1 },
+        };
+        let description = Description {
+            backend: "motors",
+            model: String::new(),
+            serial: String::new(),
+            firmware: String::new(),
+            limits,
+            buttons: Vec::new(),
+            joints: Vec::new(),
+            has_gripper: false,
+            needs_homing: true,
+            watchdog: None,
+            status_names: &[],
+        };
+        Bench {
+            operation: Operation::new(askee, shared.clone(), 1.0),
+            motors: Motors { description, on: false, homes: true },
+            shared,
+            _asker: asker,
+        }
+    }
+
+    impl Bench {
+        fn ask(&mut self, command: StateCommand) -> (bool, OperatingState) {
+            let request = Request::State(command);
+            let accepted = self.operation.execute(request, Some(&mut self.motors), 0).unwrap();
+            (accepted, self.operation.state())
+        }
+
+        /// A period in which the force is zero.
+        fn period(&mut self, state: &DeviceState, now_ns: u64) -> OperatingState {
+            self.operation.watch(state, now_ns);
+            self.operation.switch_motors(&mut self.motors, true, false).unwrap();
+            self.operation.state()
+        }
+    }
+
+    fn still() -> DeviceState {
+        DeviceState::at_rest(Pose::IDENTITY)
+    }
+
+    #[test]
+    fn motors_are_on_in_the_states_that_say_so() {
+        let mut bench = bench();
+        for (command, state, on) in [
+            (Enable, Enabled, true),
+            (Pause, Paused, true),
+            (Resume, Enabled, true),
+            (Disable, Disabled, false),
+            (Enable, Enabled, true),
+        ] {
+            assert_eq!(bench.ask(command), (true, state));
+            bench.period(&still(), MS);
+            assert_eq!(bench.motors.on, on, "{command:?}");
+        }
+    }
+
+    #[test]
+    fn motors_go_off_only_when_the_force_has_gone() {
+        let mut bench = bench();
+        bench.ask(Enable);
+        bench.ask(Disable);
+        bench.operation.switch_motors(&mut bench.motors, false, false).unwrap();
+        assert!(bench.motors.on);
+        bench.operation.switch_motors(&mut bench.motors, true, false).unwrap();
+        assert!(!bench.motors.on);
+    }
+
+    #[test]
+    fn an_emergency_stop_is_a_fault_that_enabling_cannot_clear_while_it_is_pressed() {
+        let mut bench = bench();
+        bench.ask(Enable);
+        let stop = |bench: &mut Bench, pressed| {
+            let request = Request::EmergencyStop(pressed);
+            assert!(bench.operation.execute(request, Some(&mut bench.motors), 0).unwrap());
+        };
+        stop(&mut bench, true);
+        assert_eq!(bench.operation.fault(), Some(FaultCause::EmergencyStop));
+        assert_eq!(bench.ask(Enable), (false, Fault));
+        assert_eq!(bench.ask(Disable), (true, Disabled));
+        assert_eq!(bench.ask(Enable), (false, Disabled), "no command leads into a fault");
+        stop(&mut bench, false);
+        assert_eq!(bench.ask(Enable), (true, Enabled));
+        assert_eq!(bench.operation.fault(), None);
+    }
+
+    #[test]
+    fn a_fault_stays_when_its_cause_goes_and_ends_by_command() {
+        let mut bench = bench();
+        bench.ask(Enable);
+        let off = DeviceState { motors_off: Some(MotorsOff::Velocity), ..still() };
+        assert_eq!(bench.period(&off, 100 * MS), Enabled, "just enabled: the device may take a moment");
+        assert_eq!(bench.period(&off, 300 * MS), Fault);
+        assert!(!bench.motors.on);
+        assert_eq!(bench.period(&still(), 400 * MS), Fault);
+        assert_eq!(bench.operation.fault(), Some(FaultCause::DeviceMotorsOff(MotorsOff::Velocity)));
+        assert_eq!(bench.ask(Enable), (true, Enabled));
+    }
+
+    #[test]
+    fn an_owner_that_is_silent_is_a_fault_until_it_is_back_and_says_so() {
+        let mut bench = bench();
+        bench.ask(Enable);
+        assert_eq!(bench.period(&still(), 1000 * MS), Enabled);
+        assert_eq!(bench.period(&still(), 1001 * MS), Fault);
+        assert_eq!(bench.ask(Enable), (false, Fault));
+        bench.shared.beat(1500 * MS);
+        assert_eq!(bench.period(&still(), 1501 * MS), Fault);
+        assert_eq!(bench.ask(Enable), (true, Enabled));
+    }
+
+    #[test]
+    fn one_reading_that_is_not_finite_is_a_glitch_and_ten_in_a_row_are_a_fault() {
+        let mut bench = bench();
+        bench.ask(Enable);
+        for _ in 0..3 {
+            for _ in 0..9 {
+                bench.operation.watch_unusable(MS);
+            }
+            assert_eq!(bench.period(&still(), MS), Enabled);
+        }
+        for _ in 0..10 {
+            bench.operation.watch_unusable(MS);
+        }
+        assert_eq!(bench.operation.fault(), Some(FaultCause::NotFinite));
+    }
+
+    #[test]
+    fn a_lost_device_is_a_fault_whatever_the_state_and_comes_back_by_command() {
+        let mut bench = bench();
+        bench.operation.lose_device();
+        assert_eq!(bench.operation.state(), Fault);
+        assert_eq!(bench.ask(Enable), (false, Fault));
+        bench.operation.find_device();
+        assert_eq!(bench.operation.state(), Fault);
+        assert_eq!(bench.ask(Enable), (true, Enabled));
+    }
+
+    #[test]
+    fn free_and_hold_need_motors_and_end_with_enable_or_resume() {
+        let mut bench = bench();
+        let ask = |bench: &mut Bench, request| bench.operation.execute(request, None, 0).unwrap();
+        assert!(!ask(&mut bench, Request::Hold));
+        bench.ask(Enable);
+        for (request, mode) in [(Request::Hold, SourceMode::Hold), (Request::Free, SourceMode::Free)] {
+            assert!(ask(&mut bench, request));
+            assert_eq!(bench.operation.mode(), mode);
+            assert!(bench.ask(Enable).0);
+            assert_eq!(bench.operation.mode(), SourceMode::Follow);
+        }
+    }
+
+    #[test]
+    fn homing_is_busy_until_it_ends_and_a_failure_is_a_fault() {
+        let mut bench = bench();
+        bench.ask(Enable);
+        assert_eq!(bench.ask(Home), (true, Enabled));
+        bench.operation.publish();
+        assert!(bench.shared.status().is_busy);
+        assert!(bench.operation.take_homing() && !bench.operation.take_homing());
+        let homed = bench.motors.home();
+        bench.operation.end_homing(homed);
+        assert!(!bench.shared.status().is_busy);
+        bench.motors.homes = false;
+        bench.ask(Home);
+        let homed = bench.motors.home();
+        bench.operation.end_homing(homed);
+        assert_eq!(bench.operation.fault(), Some(FaultCause::HomingFailed));
+    }
+}
