@@ -23,6 +23,21 @@ pub fn frame_id(namespace: &str, parameter: &str) -> String {
     }
 }
 
+/// The namespace of the session that a device's driver works in: what stands before the name of its device, where
+/// `devices` has that name ("/or/left" and ["left", "right"] give "/or"), else its own namespace.
+pub fn session_namespace<'a>(namespace: &'a str, devices: &[String]) -> &'a str {
+    let own = namespace.trim_end_matches('/');
+    let names = devices.iter().map(|name| name.trim_end_matches('/'));
+    let before = names
+        .filter(|name| !name.is_empty() && !name.starts_with('/'))
+        .find_map(|name| own.strip_suffix(name)?.strip_suffix('/'));
+    match before {
+        Some("") => "/",
+        Some(session) => session,
+        None => namespace,
+    }
+}
+
 /// The frame of a message as tf knows it: without the leading "/" that older drivers still send.
 pub fn frame_of_message(frame_id: &str) -> &str {
     frame_id.strip_prefix('/').unwrap_or(frame_id)
@@ -153,6 +168,17 @@ mod tests {
         assert_eq!(frame_id("/room/left", "device_base"), "room/left/device_base");
         assert_eq!(frame_id("/left", "/PSM1_base"), "PSM1_base");
         assert_eq!(frame_of_message("/old_driver"), "old_driver");
+    }
+
+    #[test]
+    fn a_driver_finds_its_session_in_front_of_the_name_of_its_device() {
+        let both = ["left", "right"].map(str::to_owned);
+        assert_eq!(session_namespace("/left", &both), "/");
+        assert_eq!(session_namespace("/or/right", &both), "/or");
+        assert_eq!(session_namespace("/or/1/left", &["1/left/".to_owned()]), "/or");
+        assert_eq!(session_namespace("/cleft", &both), "/cleft", "another name");
+        assert_eq!(session_namespace("/or", &[String::new()]), "/or", "alone");
+        assert_eq!(session_namespace("/", &both), "/");
     }
 
     #[test]

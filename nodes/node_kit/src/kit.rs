@@ -116,6 +116,12 @@ impl NodeKit {
         frames::frame_id(&format!("{}/{device}", self.namespace), parameter)
     }
 
+    /// The same for a parameter of the whole session, said by the driver of one of its `devices`, which stands in that
+    /// device's sub-namespace: "/left", ["left", "right"] and "scene" give "scene", as the session's other nodes say it.
+    pub fn frame_id_of_session(&self, devices: &[String], parameter: &str) -> String {
+        frames::frame_id(frames::session_namespace(&self.namespace, devices), parameter)
+    }
+
     /// The parameters' present values, checked.
     pub fn parameters(&self) -> &Parameters {
         self.store.values()

@@ -22,8 +22,9 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         check: Check::Any,
         length: Length::AtLeastOne,
         live: false,
-        owners: &[Node::Deformation, Node::Visualization, Node::BagReplay],
-        help: "Sub-namespaces of the devices' topics, one entry for each device; \"\" is the node's own namespace.",
+        owners: &Node::ALL,
+        help: "Sub-namespaces of the devices' topics, one entry for each device; \"\" is the node's own namespace. A driver \
+               in one of them finds the session in front of it.",
     },
     ParameterSpec {
         name: "clutch.button",
