@@ -63,7 +63,7 @@ impl SafetyLayer {
             clamp: Clamp::new(settings, limits),
             edge: WorkspaceEdge::new(limits.workspace, settings.workspace_margin_m),
             passivity: PassivityController::new(settings, period_s),
-            energy: EnergyObserver::new(period_s),
+            energy: EnergyObserver::default(),
             slew: Slew::new(settings),
             guard: VelocityGuard::new(settings.max_speed_m_per_s, period_s),
             last_ns: None,
@@ -116,7 +116,6 @@ impl SafetyLayer {
         if self.blind_s > LONGEST_BLINDNESS_S {
             self.gate.close();
         }
-        self.energy.skip();
         self.applied = self.slew.apply(&self.applied, &Wrench::ZERO, dt_s, &mut hit);
         Applied { wrench: self.applied, fault: None, limits_hit: hit }
     }
