@@ -9,8 +9,9 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use devices::{
-    Device, DeviceError, DeviceLimits, DeviceState, ForceOrigin, ForceSource, LawCommand, MotorError,
-    MotorLoop, MotorSettings, Workspace, samples,
+    Answer, Description, Device, DeviceError, DeviceLimits, DeviceState, FaultCause, ForceOrigin,
+    ForceSource, LawCommand, MotorError, MotorLoop, MotorSettings, OperatingState, Request, SafetySettings,
+    Sample, SampleReceiver, StateCommand, Workspace, Wrench, samples,
 };
 use glam::{DQuat, DVec3};
 use rhombus_chain::{ChainParameters, ContactLaw, Formulation, LocalLaw, Mode, Pose};
@@ -45,64 +46,144 @@ static ALLOCATOR: Counting = Counting;
 #[derive(Debug, Default, Clone)]
 struct Seen {
     commands: Vec<DVec3>,
-    disabled: bool,
+    motors_on: bool,
+    opened: u32,
 }
 
-/// A handle pressed a little into a floor; from its first reading on, its thread must leave the allocator alone.
-struct Handle {
-    seen: Arc<Mutex<Seen>>,
-    readings: u64,
-    fails_at: Option<u64>,
+/// What shall go wrong.
+#[derive(Clone, Copy, Default)]
+struct Plan {
+    /// Reading at which the device is lost, the first time it is open.
+    lost_at: Option<u64>,
     panics_at: Option<u64>,
-    max_force_n: f64,
+    max_force_n: Option<f64>,
+    /// Reading from which on the handle is in the floor.
+    pressed_from: u64,
 }
 
-impl Handle {
-    fn new() -> (Handle, Arc<Mutex<Seen>>) {
-        let seen = Arc::new(Mutex::new(Seen { commands: Vec::with_capacity(100_000), disabled: false }));
-        (Handle { seen: seen.clone(), readings: 0, fails_at: None, panics_at: None, max_force_n: 20.0 }, seen)
-    }
+/// A handle that is pressed into a floor; from its first reading on, its thread must leave the allocator alone.
+struct Handle {
+    description: Description,
+    seen: Arc<Mutex<Seen>>,
+    plan: Plan,
+    readings: u64,
 }
 
 impl Device for Handle {
-    fn name(&self) -> &str {
-        "handle"
-    }
-    fn limits(&self) -> DeviceLimits {
-        DeviceLimits { max_force_n: self.max_force_n, workspace: Workspace { radius_m: 0.1, height_m: 0.1 } }
+    fn description(&self) -> &Description {
+        &self.description
     }
     fn read(&mut self) -> Result<DeviceState, DeviceError> {
         WATCHED.set(true);
         self.readings += 1;
-        if self.fails_at == Some(self.readings) {
+        if self.plan.lost_at == Some(self.readings) {
+            WATCHED.set(false);
             return Err(DeviceError::Lost { device: "handle", reason: "unplugged" });
         }
-        if self.panics_at == Some(self.readings) {
+        if self.plan.panics_at == Some(self.readings) {
             WATCHED.set(false);
             panic!("a bug in a backend");
         }
-        Ok(DeviceState {
-            pose: Pose { translation: DVec3::new(0.0, 0.0, 0.003), rotation: DQuat::IDENTITY },
-            linear_velocity_m_per_s: DVec3::ZERO,
-            angular_velocity_rad_per_s: DVec3::ZERO,
-            gripper_rad: None,
-            buttons: 0,
-            device_time_ns: self.readings,
-        })
+        let z = if self.readings < self.plan.pressed_from { 0.01 } else { 0.003 };
+        let pose = Pose { translation: DVec3::new(0.0, 0.0, z), rotation: DQuat::IDENTITY };
+        Ok(DeviceState { device_time_ns: self.readings, ..DeviceState::at_rest(pose) })
     }
-    fn command(&mut self, force_n: DVec3) -> Result<(), DeviceError> {
-        self.seen.lock().unwrap().commands.push(force_n);
+    fn command(&mut self, wrench: &Wrench) -> Result<(), DeviceError> {
+        self.seen.lock().unwrap().commands.push(wrench.force_n);
+        Ok(())
+    }
+    fn enable(&mut self) -> Result<(), DeviceError> {
+        self.seen.lock().unwrap().motors_on = true;
         Ok(())
     }
     fn disable(&mut self) -> Result<(), DeviceError> {
         WATCHED.set(false);
-        self.seen.lock().unwrap().disabled = true;
+        self.seen.lock().unwrap().motors_on = false;
         Ok(())
     }
 }
 
-const SETTINGS: MotorSettings =
-    MotorSettings { rate_hz: 4000.0, max_force_n: 20.0, source: ForceSource::ContactLaw, fifo_priority: 50 };
+impl Drop for Handle {
+    fn drop(&mut self) {
+        WATCHED.set(false);
+    }
+}
+
+/// Opens handles; what goes wrong goes wrong with the first one.
+fn opener(
+    plan: Plan,
+    seen: &Arc<Mutex<Seen>>,
+) -> impl FnMut() -> Result<Box<dyn Device>, DeviceError> + use<> {
+    let seen = seen.clone();
+    move || {
+        let mut guard = seen.lock().unwrap();
+        guard.opened += 1;
+        let plan = if guard.opened == 1 { plan } else { Plan::default() };
+        let limits = DeviceLimits {
+            max_force_n: Some(plan.max_force_n.unwrap_or(20.0)),
+            max_torque_n_m: None,
+            max_gripper_force_n: None,
+            workspace: Workspace { centre: DVec3::ZERO, radius_m: 0.1, height_m: 0.1 },
+        };
+        let description = Description {
+            backend: "handle",
+            model: String::new(),
+            serial: "7".to_owned(),
+            firmware: String::new(),
+            limits,
+            buttons: Vec::new(),
+            joints: Vec::new(),
+            has_gripper: false,
+            needs_homing: false,
+            watchdog: None,
+            status_names: &[],
+        };
+        drop(guard);
+        Ok(Box::new(Handle { description, seen: seen.clone(), plan, readings: 0 }))
+    }
+}
+
+/// A loop of 4 kHz whose engage ramp is short; the rest as in a session.
+fn settings() -> MotorSettings {
+    let safety = SafetySettings { engage_ramp_s: 0.05, ..SafetySettings::default() };
+    MotorSettings {
+        rate_hz: 4000.0,
+        fifo_priority: 50,
+        cpu: None,
+        source: ForceSource::ContactLaw,
+        safety: safety.checked(&["safety.engage_ramp".to_owned()]).unwrap(),
+        enable_at_start: true,
+        gravity_compensation: false,
+    }
+}
+
+fn start(plan: Plan) -> (MotorLoop, SampleReceiver, Arc<Mutex<Seen>>) {
+    let seen = Arc::new(Mutex::new(Seen { commands: Vec::with_capacity(1_000_000), ..Seen::default() }));
+    let (out, drain) = samples(4096);
+    (MotorLoop::start(opener(plan, &seen), settings(), out).unwrap(), drain, seen)
+}
+
+fn next(drain: &mut SampleReceiver) -> Sample {
+    loop {
+        if let Some(sample) = drain.recv_timeout(Duration::from_secs(10)) {
+            return sample;
+        }
+    }
+}
+
+/// Presses until the force is what the law says.
+fn press(motor: &mut MotorLoop, drain: &mut SampleReceiver) -> DVec3 {
+    let full_n = chains(500.0).at_depth(0.002).unwrap().force_n;
+    for _ in 0..40_000 {
+        let sample = next(drain);
+        motor.beat();
+        motor.send_law(floor(sample.stamp_ns, chains(500.0)));
+        if (sample.wrench.force_n.z - full_n).abs() < 1e-9 {
+            return sample.wrench.force_n;
+        }
+    }
+    panic!("the force never came to {full_n} N: {:?}", motor.status());
+}
 
 fn chains(normal_stiffness_n_per_m: f64) -> Arc<ContactLaw> {
     let one = ChainParameters {
@@ -132,22 +213,23 @@ fn floor(stamp_ns: i64, chains: Arc<ContactLaw>) -> LawCommand {
     LawCommand { stamp_ns, validity_ns: 100_000_000, local, chains }
 }
 
+const PRESSED: Plan = Plan { lost_at: None, panics_at: None, max_force_n: None, pressed_from: 40 };
+
 #[test]
 fn the_loop_answers_with_the_laws_force_and_never_calls_the_allocator() {
-    let (handle, seen) = Handle::new();
-    let (out, mut drain) = samples(64);
-    let mut motor = MotorLoop::start(Box::new(handle), SETTINGS, out).unwrap();
+    let (mut motor, mut drain, seen) = start(PRESSED);
     let before = ALLOCATOR_CALLS.load(SeqCst);
-    let mut forces = Vec::new();
     let mut last_stamp_ns = 0;
+    let mut forces = Vec::with_capacity(3000);
     // Every answer brings new chains, so every period lets go of old ones.
-    while forces.len() < 2000 {
-        let Some(sample) = drain.recv_timeout(Duration::from_secs(10)) else { continue };
+    for i in 0..3000 {
+        let sample = next(&mut drain);
         assert!(sample.stamp_ns > last_stamp_ns);
         last_stamp_ns = sample.stamp_ns;
-        motor.send_law(floor(sample.stamp_ns, chains(500.0 + forces.len() as f64)));
+        motor.beat();
+        motor.send_law(floor(sample.stamp_ns, chains(500.0 + f64::from(i))));
         if sample.origin == ForceOrigin::ContactLaw {
-            forces.push(sample.force_n);
+            forces.push(sample.wrench.force_n);
         }
     }
     assert!(motor.is_running());
@@ -155,75 +237,107 @@ fn the_loop_answers_with_the_laws_force_and_never_calls_the_allocator() {
     assert_eq!(ALLOCATOR_CALLS.load(SeqCst) - before, 0, "allocations or frees in the motor loop's thread");
 
     let softest = chains(500.0).at_depth(0.002).unwrap().force_n;
-    assert!(forces.iter().all(|f| f.z >= softest - 1e-12 && f.x == 0.0 && f.y == 0.0), "{:?}", forces[0]);
-    assert!(forces[forces.len() - 1].z > 2.0 * softest);
+    let last = forces[forces.len() - 1];
+    assert!(last.z > 2.0 * softest && last.x == 0.0 && last.y == 0.0, "{last}");
     let seen = seen.lock().unwrap();
     assert_eq!(seen.commands.last(), Some(&DVec3::ZERO));
-    assert!(seen.disabled);
+    assert!(!seen.motors_on);
     assert_eq!(motor.counts().unusable_forces, 0);
 }
 
 #[test]
+fn however_the_loop_is_told_to_end_the_force_never_steps() {
+    for command in [None, Some(Request::State(StateCommand::Disable)), Some(Request::EmergencyStop(true))] {
+        let (mut motor, mut drain, seen) = start(PRESSED);
+        press(&mut motor, &mut drain);
+        if let Some(command) = command {
+            assert!(matches!(motor.request(command), Answer::Accepted(_)));
+            while next(&mut drain).wrench != Wrench::ZERO {}
+            // The motors go off in the period in which the force has arrived at zero, or the next.
+            next(&mut drain);
+            next(&mut drain);
+            assert!(!seen.lock().unwrap().motors_on, "{command:?}");
+        }
+        motor.stop().unwrap();
+        let seen = seen.lock().unwrap();
+        assert!(!seen.motors_on);
+        assert_eq!(seen.commands.last(), Some(&DVec3::ZERO));
+        let most_n = settings().safety.slew_n_per_s / 4000.0;
+        let largest = seen.commands.windows(2).map(|w| (w[1] - w[0]).length()).fold(0.0, f64::max);
+        assert!(largest <= most_n * (1.0 + 1e-9), "{largest} N in one period, {most_n} N allowed");
+    }
+}
+
+#[test]
 fn samples_that_nobody_takes_are_counted_and_do_not_stop_the_loop() {
-    let (handle, seen) = Handle::new();
-    let (out, drain) = samples(8);
-    let mut motor = MotorLoop::start(Box::new(handle), SETTINGS, out).unwrap();
+    let seen = Arc::default();
+    let (out, _drain) = samples(8);
+    let mut motor = MotorLoop::start(opener(Plan::default(), &seen), settings(), out).unwrap();
     while motor.counts().ticks < 50 {
         std::thread::yield_now();
     }
     motor.stop().unwrap();
     let counts = motor.counts();
-    assert_eq!(counts.lost_samples, counts.ticks - 8);
-    assert!(
-        seen.lock().unwrap().commands.len() as u64 > counts.ticks,
-        "a force each tick, and none at the end"
-    );
-    drop(drain);
+    assert!(counts.lost_samples >= 50 - 8 && counts.lost_samples < counts.ticks, "{counts:?}");
 }
 
 #[test]
-fn a_device_that_is_lost_ends_the_loop_with_the_motors_off_and_the_reason() {
-    let (mut handle, seen) = Handle::new();
-    handle.fails_at = Some(5);
-    let (out, mut drain) = samples(64);
-    let mut motor = MotorLoop::start(Box::new(handle), SETTINGS, out).unwrap();
-    while !drain.is_abandoned() {
-        std::thread::yield_now();
+fn a_device_that_is_lost_is_a_fault_and_comes_back_by_command() {
+    let (mut motor, mut drain, seen) = start(Plan { lost_at: Some(400), ..PRESSED });
+    while motor.counts().reopenings == 0 {
+        drain.recv_timeout(Duration::from_millis(1));
+        motor.beat();
     }
-    assert!(motor.stop().unwrap_err().to_string().contains("unplugged"));
-    assert!(!motor.is_running());
-    assert!(seen.lock().unwrap().disabled);
-    assert_eq!(std::iter::from_fn(|| drain.try_recv()).count(), 4);
+    let status = motor.status();
+    assert_eq!((status.operating, status.fault), (OperatingState::Fault, Some(FaultCause::DeviceLost)));
+    assert!(!seen.lock().unwrap().motors_on);
+    let enable = Request::State(StateCommand::Enable);
+    assert_eq!(motor.request(enable), Answer::Accepted(OperatingState::Enabled));
+    assert!(seen.lock().unwrap().motors_on);
+    assert_eq!(seen.lock().unwrap().opened, 2);
+    motor.stop().unwrap();
+    assert!(!seen.lock().unwrap().motors_on);
 }
 
 #[test]
 fn a_panic_in_the_loop_leaves_the_motors_off() {
-    let (mut handle, seen) = Handle::new();
-    handle.panics_at = Some(3);
-    let (out, drain) = samples(64);
-    let mut motor = MotorLoop::start(Box::new(handle), SETTINGS, out).unwrap();
+    let (mut motor, drain, seen) = start(Plan { panics_at: Some(30), ..PRESSED });
     while !drain.is_abandoned() {
         std::thread::yield_now();
     }
     assert!(matches!(motor.stop(), Err(MotorError::Panicked)));
+    assert!(!motor.is_running());
     let seen = seen.lock().unwrap();
     assert_eq!(seen.commands.last(), Some(&DVec3::ZERO));
-    assert!(seen.disabled);
+    assert!(!seen.motors_on);
+}
+
+#[test]
+fn an_owner_that_falls_silent_takes_the_force_with_it() {
+    let (mut motor, mut drain, seen) = start(PRESSED);
+    press(&mut motor, &mut drain);
+    // No beat any more, but laws still come: somebody else's thread may send them.
+    while motor.status().fault.is_none() {
+        let sample = next(&mut drain);
+        motor.send_law(floor(sample.stamp_ns, chains(500.0)));
+    }
+    assert_eq!(motor.status().fault, Some(FaultCause::RosThreadHung));
+    while next(&mut drain).wrench != Wrench::ZERO {}
+    next(&mut drain);
+    next(&mut drain);
+    assert!(!seen.lock().unwrap().motors_on);
 }
 
 #[test]
 fn a_device_or_a_rate_that_makes_no_sense_is_refused() {
     for max_force_n in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let (mut handle, _) = Handle::new();
-        handle.max_force_n = max_force_n;
-        assert!(matches!(
-            MotorLoop::start(Box::new(handle), SETTINGS, samples(8).0),
-            Err(MotorError::Limits { .. })
-        ));
+        let plan = Plan { max_force_n: Some(max_force_n), ..Plan::default() };
+        let started = MotorLoop::start(opener(plan, &Arc::default()), settings(), samples(8).0);
+        assert!(matches!(started, Err(MotorError::Limits { .. })));
     }
     for rate_hz in [0.0, 9.9, 4001.0, f64::NAN] {
-        let settings = MotorSettings { rate_hz, ..SETTINGS };
-        let started = MotorLoop::start(Box::new(Handle::new().0), settings, samples(8).0);
+        let settings = MotorSettings { rate_hz, ..settings() };
+        let started = MotorLoop::start(opener(Plan::default(), &Arc::default()), settings, samples(8).0);
         assert!(matches!(started, Err(MotorError::Rate { .. })));
     }
 }
