@@ -1,25 +1,62 @@
 //! From the scene to the device that is opened.
 
-use anyhow::{Context, Result, bail};
+use anyhow::Result;
 use devices::Backend;
-use devices::simulated::{self, HandSettings, Motion};
 use node_kit::Log;
 use scene::Scene;
 
-use crate::press_sites::{Ground, Placement, in_device_metres};
-
-/// The backend that `device.backend` names, with all it needs. The body is loaded for the simulated one only.
+/// The backend that `device.backend` names, with all it needs; the others' settings are not looked at.
+///
+/// # Errors
+/// The name is of a backend that was left out of this executable, or the simulated hand has nothing to press.
 pub(crate) fn backend(scene: &Scene, log: &Log) -> Result<Backend> {
-    match scene.device.backend.as_str() {
-        "simulated" => Ok(Backend::Simulated(simulated_hand(scene, log)?)),
-        other => {
-            bail!("device.backend \"{other}\" is not built into this executable; accepted: \"simulated\"")
-        }
-    }
+    let serial = || scene.device.serial.clone();
+    let p = scene.parameters();
+    Ok(match scene.device.backend.as_str() {
+        #[cfg(feature = "simulated")]
+        "simulated" => Backend::Simulated(simulated_hand(scene, log)?),
+        #[cfg(feature = "force_dimension")]
+        "force_dimension" => Backend::ForceDimension(devices::force_dimension::Settings {
+            serial: serial(),
+            sdk: p.text("force_dimension.sdk")?.into(),
+            period_s: 1.0 / scene.device.rate_hz,
+        }),
+        #[cfg(feature = "haply")]
+        "haply" => Backend::Haply(devices::haply::Settings {
+            url: p.text("haply.url")?.to_owned(),
+            serial: serial(),
+            grip: p.text("haply.grip")?.to_owned(),
+            max_force_n: p.double("haply.max_force")?,
+        }),
+        #[cfg(feature = "serial")]
+        "serial" => Backend::Serial(devices::serial::Settings {
+            port: p.text("serial.port")?.to_owned(),
+            // The schema keeps it within what fits.
+            baud: u32::try_from(p.integer("serial.baud")?).unwrap_or(u32::MAX),
+            serial: serial(),
+        }),
+        #[cfg(feature = "spacemouse")]
+        "spacemouse" => Backend::SpaceMouse(devices::spacemouse::Settings {
+            serial: serial(),
+            linear_speed_m_per_s: p.double("spacemouse.linear_speed")?,
+            angular_speed_rad_per_s: p.double("spacemouse.angular_speed")?,
+            full_scale: p.double("spacemouse.full_scale")?,
+            deadband: p.double("spacemouse.deadband")?,
+        }),
+        other => anyhow::bail!(
+            "device.backend \"{other}\" is not built into this executable; build it with the Cargo feature of that name"
+        ),
+    })
 }
 
-/// A hand that presses, slides, grasps and pulls at sites of the scene's body.
-fn simulated_hand(scene: &Scene, log: &Log) -> Result<simulated::Settings> {
+/// A hand that presses, slides, grasps and pulls at sites of the scene's body, which is loaded for it.
+#[cfg(feature = "simulated")]
+fn simulated_hand(scene: &Scene, log: &Log) -> Result<devices::simulated::Settings> {
+    use anyhow::Context;
+    use devices::simulated::{self, HandSettings, Motion};
+
+    use crate::press_sites::{Ground, Placement, in_device_metres};
+
     let loaded = scene.load_body().context("body.mesh")?;
     for warning in &loaded.warnings {
         log.warn(&warning.to_string());

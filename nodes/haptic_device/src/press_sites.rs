@@ -140,9 +140,9 @@ impl Ground<'_> {
 
     /// Inside the workspace by a margin.
     fn reaches(&self, point_in_device: DVec3) -> bool {
-        let Workspace { radius_m, height_m } = self.workspace;
-        let inner =
-            Workspace { radius_m: radius_m - EDGE_MARGIN_M, height_m: height_m - 2.0 * EDGE_MARGIN_M };
+        let Workspace { centre, radius_m, height_m } = self.workspace;
+        let (radius_m, height_m) = (radius_m - EDGE_MARGIN_M, height_m - 2.0 * EDGE_MARGIN_M);
+        let inner = Workspace { centre, radius_m, height_m };
         inner.contains(point_in_device)
     }
 

@@ -11,6 +11,13 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         "",
         "Id of the handle whose orientation and buttons are used; \"\": the only one, if there is one.",
     ),
+    number(
+        "haply.max_force",
+        "N",
+        2.0,
+        Check::Within(0.01, 20.0),
+        "The largest force of this device, which its service does not say.",
+    ),
     text("serial.port", "", "Serial port of a self-built device; \"\": the only port at which one answers."),
     integer(
         "serial.baud",
