@@ -225,8 +225,26 @@ def test_the_clutch_freezes_the_probe_and_the_motion_goes_on_from_there(start):
     assert state.depth == approx(0.004, abs=1e-9)
 
 
-def test_two_devices_press_one_body_without_feeling_each_other(start):
+HERE = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+
+
+def test_of_two_devices_nobody_has_placed_none_feels_a_force_until_its_driver_says_where_it_stands(start):
     program, peer = start({**SCENE, "devices": ["left", "right"]})
+    left, right = (Device(peer, f"{side}/", f"{side}/device_base") for side in ("left", "right"))
+    for device in (left, right):
+        assert force_of(device.ask(pressed(0.003))[0]) == (0.0, 0.0, 0.0)
+    send_transform(peer, "/tf_static", latched(100), "scene", "left/device_base", (0.02, 0.0, 0.0))
+    away = pressed(0.003, x=-0.02)
+    force, _, state = left.until(away, lambda f, l, state: state.mode != ContactState.NONE, "a contact of left")
+    assert force_of(force)[2] == approx(graph.library_force_n(program.file, 0.003), rel=1e-9)
+    assert vector(state.proxy)[0] == approx(-0.02, abs=1e-9), "in the frame of its poses"
+    assert force_of(right.ask(pressed(0.003))[0]) == (0.0, 0.0, 0.0), "right still stands nowhere"
+    _, _, values = peer.new_status("/deformation: right")
+    assert int(values["rejected_unknown_frame"]) == 2, values
+
+
+def test_two_devices_press_one_body_without_feeling_each_other(start):
+    program, peer = start({**SCENE, "devices": ["left", "right"], "device.scene_from_device": HERE})
     left = Device(peer, "left/", "left/device_base")
     right = Device(peer, "right/", "right/device_base")
     surfaces = peer.heard(SurfaceDisplacement, "surface_displacement", reliable(10))

@@ -167,14 +167,18 @@ impl Deformation {
     }
 }
 
-/// Where the parameters put body and devices in the scene.
+/// Where the parameters put body and devices in the scene. With several devices `device.scene_from_device` is the place
+/// of all of them only when somebody says so; otherwise each driver says where its own stands, on `/tf_static`.
 fn frames_from_parameters(kit: &NodeKit, scene: &Scene) -> FrameTree {
     let scene_frame = kit.frame_id(&scene.session.scene_frame_id);
     let mut frames = FrameTree::new();
     frames.set_from_parameters(&scene_frame, &kit.frame_id(&scene.body.frame_id), scene.body.scene_from_body);
-    for device in &scene.session.devices {
-        let device_frame = kit.frame_id_of_device(device, &scene.device.frame_id);
-        frames.set_from_parameters(&scene_frame, &device_frame, scene.device.scene_from_device);
+    let devices = &scene.session.devices;
+    if devices.len() == 1 || scene.parameters().is_given("device.scene_from_device") {
+        for device in devices {
+            let device_frame = kit.frame_id_of_device(device, &scene.device.frame_id);
+            frames.set_from_parameters(&scene_frame, &device_frame, scene.device.scene_from_device);
+        }
     }
     frames
 }

@@ -49,25 +49,21 @@ impl Transforms {
     }
 }
 
-/// The body and the devices in the scene. `names` makes a frame of a device's sub-namespace ("" for the node's own) and
-/// a parameter. A device whose frame's name is given verbatim ("/PSM1_base") stands in somebody else's tree, unless the
-/// parameters say where it stands: a frame with two parents would break tf.
+/// The body and, where there is only one, the device in the scene; of several devices each driver says where its own
+/// stands. `names` makes a frame of a device's sub-namespace ("" for the node's own) and a parameter. A device whose
+/// frame's name is given verbatim ("/PSM1_base") stands in somebody else's tree, unless the parameters say where it
+/// stands: a frame with two parents would break tf.
 fn fixed_transforms(scene: &Scene, names: impl Fn(&str, &str) -> String) -> TFMessage {
     let scene_frame = names("", &scene.session.scene_frame_id);
     let body = (names("", &scene.body.frame_id), scene.body.scene_from_body);
     let is_ours =
         !scene.device.frame_id.starts_with('/') || scene.parameters().is_given("device.scene_from_device");
-    let mut device_frames: Vec<String> = scene
-        .session
-        .devices
-        .iter()
-        .map(|device| names(device, &scene.device.frame_id))
-        .filter(|frame| is_ours && *frame != scene_frame)
-        .collect();
-    device_frames.dedup();
-    let devices = device_frames.into_iter().map(|frame| (frame, scene.device.scene_from_device));
+    let device = match scene.session.devices.as_slice() {
+        [device] if is_ours => Some((names(device, &scene.device.frame_id), scene.device.scene_from_device)),
+        _ => None,
+    };
     let transforms = std::iter::once(body)
-        .chain(devices)
+        .chain(device.filter(|(frame, _)| *frame != scene_frame))
         .map(|(frame, scene_from_frame)| transform_stamped(0, &scene_frame, &frame, &scene_from_frame));
     TFMessage { transforms: transforms.collect() }
 }
@@ -98,10 +94,13 @@ mod tests {
     }
 
     #[test]
-    fn each_device_has_its_frame() {
-        let devices = Value::StringArray(vec!["left".to_owned(), "right".to_owned()]);
-        let expected = [("scene", "body"), ("scene", "left/device_base"), ("scene", "right/device_base")];
-        assert_eq!(frames("", &[("devices", devices)]), pairs(&expected));
+    fn a_single_device_has_its_frame_and_of_several_each_driver_says_where_it_stands() {
+        let devices = |names: &[&str]| {
+            ("devices", Value::StringArray(names.iter().map(|name| (*name).to_owned()).collect()))
+        };
+        let left = [("scene", "body"), ("scene", "left/device_base")];
+        assert_eq!(frames("", &[devices(&["left"])]), pairs(&left));
+        assert_eq!(frames("", &[devices(&["left", "right"])]), pairs(&left[..1]));
     }
 
     #[test]
