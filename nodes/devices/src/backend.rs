@@ -29,18 +29,18 @@ impl Backend {
     /// # Errors
     /// What was looked for, what was found, and what to do.
     pub fn open(&self) -> Result<Box<dyn Device>, DeviceError> {
-        Ok(match self.clone() {
+        match self.clone() {
             #[cfg(feature = "simulated")]
-            Backend::Simulated(settings) => Box::new(crate::simulated::SimulatedDevice::open(settings)?),
+            Backend::Simulated(settings) => Ok(Box::new(crate::simulated::SimulatedDevice::open(settings)?)),
             #[cfg(feature = "force_dimension")]
-            Backend::ForceDimension(settings) => Box::new(crate::force_dimension::open(settings)?),
+            Backend::ForceDimension(settings) => Ok(Box::new(crate::force_dimension::open(settings)?)),
             #[cfg(feature = "haply")]
-            Backend::Haply(settings) => Box::new(crate::haply::open(settings)?),
+            Backend::Haply(settings) => Ok(Box::new(crate::haply::open(settings)?)),
             #[cfg(feature = "serial")]
-            Backend::Serial(settings) => Box::new(crate::serial::open(settings)?),
+            Backend::Serial(settings) => Ok(Box::new(crate::serial::open(settings)?)),
             #[cfg(feature = "spacemouse")]
-            Backend::SpaceMouse(settings) => Box::new(crate::spacemouse::open(settings)?),
-        })
+            Backend::SpaceMouse(settings) => Ok(Box::new(crate::spacemouse::open(settings)?)),
+        }
     }
 
     /// What a motor loop calls to open the device, at its start and after a loss.

@@ -15,6 +15,17 @@
 //! evaluates it itself ([`source`]), so a late message costs freshness of the law and never a period of the loop. What
 //! reaches the motors has passed the [`safety`] layer, whatever its source and whatever the backend.
 
+#[cfg(not(any(
+    feature = "simulated",
+    feature = "force_dimension",
+    feature = "haply",
+    feature = "serial",
+    feature = "spacemouse"
+)))]
+compile_error!(
+    "no backend: choose one or more of the features simulated, force_dimension, haply, serial, spacemouse"
+);
+
 mod backend;
 mod device;
 mod emergency;
