@@ -25,6 +25,7 @@ use self::bus::Opened;
 use self::failure::Failure;
 use self::health::Health;
 use self::model::Model;
+use self::sdk::Reading;
 use crate::realtime::monotonic_ns;
 use crate::{Description, Device, DeviceError, DeviceLimits, DeviceState, Found, MAX_JOINTS, Wrench};
 
@@ -44,8 +45,6 @@ const PATIENCE_NS: u64 = 100_000_000;
 
 /// A pause between two readings after which the SDK has no velocity at first, ns.
 const VELOCITY_WINDOW_NS: u64 = 20_000_000;
-
-const UPRIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Which device is opened, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +74,7 @@ pub fn open(settings: Settings) -> Result<ForceDimensionDevice, DeviceError> {
             ),
         });
     }
-    ForceDimensionDevice::start(bus::open(sdk::load(&settings.sdk)?, wanted)?)
+    ForceDimensionDevice::start(bus::open(sdk::load(&settings.sdk)?, wanted)?, settings.period_s)
 }
 
 /// The devices on the bus, those that another program has open too. Each free one is opened for a moment. Not RT safe.
@@ -121,7 +120,7 @@ pub struct ForceDimensionDevice {
 }
 
 impl ForceDimensionDevice {
-    fn start(opened: Opened) -> Result<ForceDimensionDevice, DeviceError> {
+    fn start(opened: Opened, period_s: f64) -> Result<ForceDimensionDevice, DeviceError> {
         let Opened { sdk, id, serial } = opened;
         let refused = |what: String| refused(serial, what);
         let answer = |what: &'static str| {
@@ -172,7 +171,7 @@ impl ForceDimensionDevice {
         };
         // Whatever ran before may have left them on.
         device.disable()?;
-        device.description.watchdog = device.set_watchdog()?;
+        device.description.watchdog = device.set_watchdog(period_s)?;
         // Its first answer decides: what is garbage now must not come to a motor loop.
         match device.read() {
             Ok(_) => Ok(device),
@@ -182,20 +181,23 @@ impl ForceDimensionDevice {
     }
 
     /// Asks for [`WATCHDOG`] and believes only what the controller then says. None: it has no watchdog.
-    fn set_watchdog(&self) -> Result<Option<Duration>, DeviceError> {
+    fn set_watchdog(&self, period_s: f64) -> Result<Option<Duration>, DeviceError> {
         let Opened { sdk, id, serial } = self.opened;
         let units = (WATCHDOG.as_micros() as u64 / UNIT_US) as u8;
-        match sdk.set_watchdog(id, units) {
-            Ok(now) if (1..=units).contains(&now) => {
-                Ok(Some(Duration::from_micros(u64::from(now) * UNIT_US)))
+        let now = match sdk.set_watchdog(id, units) {
+            Ok(now) => now,
+            Err(failure) if failure.is_unsupported() => return Ok(None),
+            Err(failure) => {
+                return Err(refused(serial, format!("its watchdog cannot be set: {}", failure.text())));
             }
-            Ok(now) => Err(refused(
-                serial,
-                format!("its watchdog is at {now} units of 125 us, although {units} were set"),
-            )),
-            Err(failure) if failure.is_unsupported() => Ok(None),
-            Err(failure) => Err(refused(serial, format!("its watchdog cannot be set: {}", failure.text()))),
+        };
+        let watchdog = Duration::from_micros(u64::from(now) * UNIT_US);
+        // Off, never set, or one that trips between two commands of the loop.
+        if now > units || watchdog.as_secs_f64() < 2.0 * period_s {
+            let what = format!("its watchdog is at {watchdog:?} after {WATCHDOG:?} was set");
+            return Err(refused(serial, what));
         }
+        Ok(Some(watchdog))
     }
 
     /// A velocity of the SDK. It knows none until it has seen two positions within 20 ms: that is rest, unless it lasts.
@@ -217,12 +219,7 @@ impl Device for ForceDimensionDevice {
     fn read(&mut self) -> Result<DeviceState, DeviceError> {
         let (sdk, id) = (self.opened.sdk, self.opened.id);
         let failed = |failure: Failure| lost(failure.text());
-        let (position, rows, is_new) = if self.has_wrist {
-            sdk.position_and_frame(id).map_err(failed)?
-        } else {
-            let (position, is_new) = sdk.position(id).map_err(failed)?;
-            (position, UPRIGHT, is_new)
-        };
+        let Reading { position, rows, is_new } = sdk.reading(id, self.has_wrist).map_err(failed)?;
         let now_ns = monotonic_ns();
         let paused = now_ns.saturating_sub(self.read_ns) > VELOCITY_WINDOW_NS;
         if paused {

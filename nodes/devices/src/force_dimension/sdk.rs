@@ -111,6 +111,18 @@ pub(super) struct Sdk {
     pub(super) open: Mutex<Vec<(Id, u16)>>,
 }
 
+/// What one reading of the position gives.
+pub(super) struct Reading {
+    /// m
+    pub(super) position: [f64; 3],
+    /// Rows of the orientation frame.
+    pub(super) rows: [[f64; 3]; 3],
+    /// Whether it is another than before.
+    pub(super) is_new: bool,
+}
+
+const UPRIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 /// Libraries that this process has loaded.
 static LOADED: Mutex<Vec<&'static Sdk>> = Mutex::new(Vec::new());
 
@@ -287,23 +299,20 @@ impl Sdk {
         self.check(unsafe { (self.haptic.set_gravity_compensation)(on.into(), id) }).map(drop)
     }
 
-    /// Position, m, and whether it is a new one. RT safe.
-    pub(super) fn position(&self, id: Id) -> Result<([f64; 3], bool), Failure> {
-        let mut position = [f64::NAN; 3];
-        let [x, y, z] = &mut position;
-        // SAFETY: three distinct numbers that outlive the call.
-        let answer = self.check(unsafe { (self.haptic.get_position)(x, y, z, id) })?;
-        Ok((position, answer != TIMEGUARD))
-    }
-
-    /// Position, m, the rows of the orientation frame, and whether they are new. RT safe.
-    pub(super) fn position_and_frame(&self, id: Id) -> Result<([f64; 3], [[f64; 3]; 3], bool), Failure> {
+    /// Where the handle is; without a wrist it is upright. RT safe.
+    pub(super) fn reading(&self, id: Id, has_wrist: bool) -> Result<Reading, Failure> {
         let (mut position, mut rows) = ([f64::NAN; 3], [[f64::NAN; 3]; 3]);
         let [x, y, z] = &mut position;
-        // SAFETY: three numbers and a matrix, all distinct, that outlive the call.
-        let answer =
-            self.check(unsafe { (self.haptic.get_position_and_frame)(x, y, z, rows.as_mut_ptr(), id) })?;
-        Ok((position, rows, answer != TIMEGUARD))
+        let answer = if has_wrist {
+            // SAFETY: three numbers and a matrix, all distinct, that outlive the call.
+            unsafe { (self.haptic.get_position_and_frame)(x, y, z, rows.as_mut_ptr(), id) }
+        } else {
+            rows = UPRIGHT;
+            // SAFETY: three distinct numbers that outlive the call.
+            unsafe { (self.haptic.get_position)(x, y, z, id) }
+        };
+        let is_new = self.check(answer)? != TIMEGUARD;
+        Ok(Reading { position, rows, is_new })
     }
 
     /// Velocity of the handle, m/s. RT safe.

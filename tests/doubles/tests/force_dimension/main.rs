@@ -1,0 +1,12 @@
+//! The Force Dimension backend against its double: the SDK's functions in a shared library, the devices in a process of
+//! their own that records what reached their motors.
+
+mod alive;
+mod double;
+mod moving;
+mod opening;
+mod stopped;
+
+/// Panics at an allocation inside `assert_no_alloc`.
+#[global_allocator]
+static ALLOCATOR: assert_no_alloc::AllocDisabler = assert_no_alloc::AllocDisabler;
