@@ -38,7 +38,7 @@ use crate::latest::{Receiver, Sender, latest};
 use crate::{
     Description, Device, DeviceError, DeviceLimits, DeviceState, Found, Workspace, Wrench, monotonic_ns,
 };
-use exchange::{COMMAND_AGE_NS, Exchange, READING_AGE_NS, Shared};
+use exchange::{COMMAND_AGE_NS, Exchange, Shared, THREAD_AGE_NS};
 use line::{Address, Line};
 use reading::Reader;
 
@@ -196,8 +196,11 @@ impl Device for HaplyDevice {
         self.alive()?;
         let now_ns = monotonic_ns();
         match self.readings.newest() {
-            Some(state) if now_ns.saturating_sub(state.device_time_ns) <= READING_AGE_NS => Ok(*state),
-            _ => Err(DeviceError::Lost { device: BACKEND, reason: "there is no reading of the last 100 ms" }),
+            Some(state) if now_ns.saturating_sub(state.device_time_ns) <= THREAD_AGE_NS => Ok(*state),
+            _ => Err(DeviceError::Lost {
+                device: BACKEND,
+                reason: "the thread that talks to its service does not get to run",
+            }),
         }
     }
 

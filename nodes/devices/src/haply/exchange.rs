@@ -21,7 +21,9 @@ use crate::{DeviceError, DeviceState, monotonic_ns};
 /// A command that is older moves nothing any more.
 pub(super) const COMMAND_AGE_NS: u64 = 20_000_000;
 /// How long there may be no good reading before the device counts as lost.
-pub(super) const READING_AGE_NS: u64 = 100_000_000;
+const READING_AGE_NS: u64 = 100_000_000;
+/// The same where the thread has not said so: then it is the thread that does not get to run.
+pub(super) const THREAD_AGE_NS: u64 = 120_000_000;
 /// How long an answer may take.
 const ANSWER: Duration = Duration::from_millis(100);
 /// How long the goodbye may take.
