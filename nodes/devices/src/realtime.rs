@@ -189,13 +189,12 @@ mod tests {
 
     #[test]
     fn a_thread_on_a_cpu_stays_there_and_a_cpu_that_is_not_there_is_refused() {
-        std::thread::spawn(|| {
+        let thread = std::thread::Builder::new().spawn(|| {
             pin_to(0).unwrap();
             // SAFETY: the call has no preconditions.
             assert_eq!(unsafe { libc::sched_getcpu() }, 0);
             assert!(pin_to(100_000).is_err());
-        })
-        .join()
-        .unwrap();
+        });
+        thread.unwrap().join().unwrap();
     }
 }

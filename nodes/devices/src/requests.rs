@@ -145,7 +145,7 @@ mod tests {
     fn each_request_gets_its_own_answer_and_a_silent_loop_is_not_waited_for() {
         let (mut asker, mut askee) = requests();
         assert_eq!(asker.ask(Request::Hold), Answer::Unanswered);
-        let loop_thread = std::thread::spawn(move || {
+        let loop_thread = std::thread::Builder::new().spawn(move || {
             let mut seen = Vec::new();
             while seen.len() < 3 {
                 let Some(request) = askee.take() else {
@@ -163,6 +163,6 @@ mod tests {
         let enable = Request::State(StateCommand::Enable);
         assert_eq!(asker.ask(enable), Answer::Accepted(OperatingState::Enabled));
         assert_eq!(asker.ask(Request::Free), Answer::Refused(OperatingState::Fault));
-        assert_eq!(loop_thread.join().unwrap(), [Request::Hold, enable, Request::Free]);
+        assert_eq!(loop_thread.unwrap().join().unwrap(), [Request::Hold, enable, Request::Free]);
     }
 }
