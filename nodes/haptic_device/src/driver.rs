@@ -1,26 +1,29 @@
-//! The node: starts device, motor loop and publisher, then carries forces and laws to the motor loop until it is told to
-//! end.
+//! The node: opens the device, starts motor loop and publisher, then carries forces, laws and orders to the motor loop
+//! until it is told to end.
 
+use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
-use devices::{ForceSource, LawCommand, MotorLoop, MotorSettings, ServoCommand, monotonic_ns, samples};
-use node_kit::{Inbox, NodeKit, Throttle, convert, frames, topics};
-use r2r::geometry_msgs::msg::WrenchStamped;
-use r2r::rhombus_haptics_msgs::msg::ContactLaw;
+use devices::{Backend, Device, DeviceError, MotorError, MotorLoop, MotorSettings, SampleSender, samples};
+use node_kit::NodeKit;
 use scene::{Scene, Value};
 
 use crate::backend::backend;
-use crate::law_message::LawReader;
-use crate::publisher::{DeviceTopics, Exchange, PublisherThread, lock};
+use crate::decimation::EveryNth;
+use crate::desk::Desk;
+use crate::forces::Forces;
+use crate::motor_settings::motor_settings;
+use crate::operating_report::OperatingReport;
+use crate::outbox::Outbox;
+use crate::publisher::{Exchange, PublisherThread, lock};
 use crate::report::Health;
-use crate::stability_watch::StabilityWatch;
+use crate::shared::Shared;
+use crate::wrench_frame::DeviceFrames;
 
-/// Samples that the publisher may be behind before some are lost: 4 s at 1 kHz.
+/// Samples that the publisher may be behind before some are lost: 1 s at 4 kHz.
 const RING: usize = 4096;
-/// Real-time priority of the motor loop: the middle, as robot controllers take it.
-const FIFO_PRIORITY: i32 = 50;
 /// A message ends the wait; this is how late the end of the session is seen.
 const TURN: Duration = Duration::from_millis(10);
 /// How long forces that are on their way are waited for at the end.
@@ -30,150 +33,112 @@ const SETTLE: Duration = Duration::from_millis(300);
 /// Between two lines about readers that are missing.
 const REMINDER: Duration = Duration::from_secs(5);
 
-/// Runs the driver until the process is asked to end or the device is lost.
+/// Runs the driver until the process is asked to end.
 pub(crate) fn run(kit: &mut NodeKit) -> Result<()> {
     let scene = Scene::from_parameters(kit.parameters().clone())?;
     let clutch_button = clutch_button(&scene)?;
-    let source: ForceSource = scene.device.force_source.parse().map_err(|text: String| anyhow!(text))?;
-    let device = backend(&scene, kit.log())?.open()?;
-    let name = device.name().to_owned();
-    let frame_id = kit.frame_id(&scene.device.frame_id);
+    let settings = motor_settings(&scene)?;
+    let backend = backend(&scene, kit.log())?;
+    let mut device = backend.open()?;
+    let can_carry_itself = can_carry_itself(&mut *device, settings.gravity_compensation)?;
 
-    let topics = DeviceTopics::new(kit, clutch_button)?;
-    let servo_cf = kit.subscribe(&topics::SERVO_CF, "")?;
-    let contact_law = kit.subscribe(&topics::CONTACT_LAW, "")?;
+    let pose_is_due = EveryNth::of_rates(settings.rate_hz, scene.device.pose_rate_hz);
+    let pose_period_ns = (f64::from(pose_is_due.n()) * 1e9 / settings.rate_hz) as u64;
+    let shared = Shared {
+        description: device.description().clone(),
+        frames: DeviceFrames::new(kit.frame_id(&scene.device.frame_id)),
+        body_is_absolute: Arc::new(AtomicBool::new(scene.device.body_cf_absolute)),
+        exchange: Arc::new(Mutex::new(Exchange::new(pose_period_ns))),
+    };
+    let outbox = Outbox::new(kit, &shared, clutch_button, pose_is_due)?;
+    let desk = Desk::new(kit, &shared, can_carry_itself)?;
+    let forces = Forces::new(kit, &shared, &scene, &settings.safety)?;
     only_lower_max_force(kit, scene.device.max_force_n);
-    wait_for_readers(kit, &topics, scene.device.wait_for_readers);
+    let report = OperatingReport::new(&shared.description, &settings.safety);
+    report.warn(kit.log());
+    wait_for_readers(kit, &outbox, scene.device.wait_for_readers);
 
-    let exchange = Arc::new(Mutex::new(Exchange::new((1e9 / scene.device.rate_hz) as u64)));
     let (sender, receiver) = samples(RING);
-    let publisher =
-        PublisherThread::start(topics, frame_id.clone(), receiver, exchange.clone(), kit.log().clone())
-            .context("the publisher thread did not start")?;
-    let settings = MotorSettings {
-        rate_hz: scene.device.rate_hz,
-        max_force_n: scene.device.max_force_n,
-        source,
-        fifo_priority: FIFO_PRIORITY,
-    };
-    let motor = MotorLoop::start(device, settings, sender)?;
-    let scheduling = motor.scheduling().to_string();
-    kit.log().info(&format!("motor loop: {scheduling}"));
-    kit.ready(&format!("{name} device at {} Hz in frame {frame_id}", scene.device.rate_hz));
-
-    let mut driver = Driver {
-        motor,
-        publisher,
-        exchange,
-        inboxes: Inboxes { servo_cf, contact_law },
-        reader: LawReader::new(frame_id.clone()),
-        frame_id,
-        max_force_n: scene.device.max_force_n,
-        stability: StabilityWatch::new(&scene),
-        unstable: Throttle::new(Duration::from_secs(1)),
-        laws: 0,
-        rejected: 0,
-        rejections: Throttle::new(Duration::from_secs(1)),
-    };
-    let mut reported = driver.health();
-    while kit.is_running() && driver.motor.is_running() {
-        driver.turn(kit);
-        if kit.diagnostics_due() {
-            let health = driver.health();
-            kit.publish_diagnostics(health.statuses(&reported, &scheduling))?;
-            reported = health;
-        }
-    }
-    driver.close(kit)
-}
-
-struct Inboxes {
-    servo_cf: Inbox<WrenchStamped>,
-    contact_law: Inbox<ContactLaw>,
+    let publisher = PublisherThread::start(outbox, receiver, shared.exchange.clone(), kit.log().clone())
+        .context("the publisher thread did not start")?;
+    let motor = start_motor(device, backend, settings, sender)?;
+    kit.log().info(&format!("motor loop: {}", motor.scheduling()));
+    let Shared { description, frames, .. } = &shared;
+    kit.ready(&format!(
+        "{} device {} at {} Hz in frame {}",
+        description.backend, description.model, scene.device.rate_hz, frames.base
+    ));
+    let max_force_n = scene.device.max_force_n;
+    Driver { motor, publisher, shared, desk, forces, report, max_force_n }.run(kit)
 }
 
 struct Driver {
     // Dropped first: motors off before anything else goes.
     motor: MotorLoop,
     publisher: PublisherThread,
-    exchange: Arc<Mutex<Exchange>>,
-    inboxes: Inboxes,
-    reader: LawReader,
-    frame_id: String,
+    shared: Shared,
+    desk: Desk,
+    forces: Forces,
+    report: OperatingReport,
     max_force_n: f64,
-    stability: StabilityWatch,
-    unstable: Throttle,
-    laws: u64,
-    rejected: u64,
-    rejections: Throttle,
 }
 
 impl Driver {
-    /// Waits for messages and parameters and passes them on.
-    fn turn(&mut self, kit: &mut NodeKit) {
+    fn run(mut self, kit: &mut NodeKit) -> Result<()> {
+        let mut reported = self.health();
+        while kit.is_running() && self.motor.is_running() {
+            let changed = self.turn(kit)?;
+            if kit.diagnostics_due() {
+                let health = self.health();
+                kit.publish_diagnostics(self.statuses(&health, &reported))?;
+                reported = health;
+            } else if changed {
+                kit.publish_diagnostics(vec![self.operating_status()])?;
+            }
+        }
+        self.close(kit)
+    }
+
+    /// Waits for messages and parameters and passes them on. True when the operating state has changed.
+    fn turn(&mut self, kit: &mut NodeKit) -> Result<bool> {
         for change in kit.spin_once(TURN) {
             if let ("device.max_force", Value::Double(max_force_n)) = (change.name, &change.value) {
                 self.max_force_n = *max_force_n;
                 self.motor.set_max_force_n(*max_force_n);
             }
         }
-        // Laws first: with one of them the motor loop does not need the force.
-        while let Some(message) = self.inboxes.contact_law.take() {
-            match self.reader.read(&message) {
-                Ok(command) => {
-                    self.laws += 1;
-                    self.judge(kit, &command);
-                    self.motor.send_law(command);
-                }
-                Err(refusal) => self.reject(kit, "contact_law", &refusal.to_string()),
-            }
+        self.motor.beat();
+        self.desk.take_emergency_stop(kit, &mut self.motor);
+        if self.forces.take(kit, &mut self.motor) {
+            self.desk.follow_again(kit, &mut self.motor);
         }
-        while let Some(message) = self.inboxes.servo_cf.take() {
-            self.take_servo(kit, &message);
-        }
-    }
-
-    /// In the words of `rhombus stability`.
-    fn judge(&mut self, kit: &NodeKit, command: &LawCommand) {
-        if let Some(verdict) = self.stability.warning(command) {
-            self.unstable.warn(kit.log(), || format!("stability: {verdict}"));
-        }
-    }
-
-    fn take_servo(&mut self, kit: &NodeKit, message: &WrenchStamped) {
-        let received_ns = monotonic_ns();
-        let frame = frames::frame_of_message(&message.header.frame_id);
-        if frame != self.frame_id {
-            let reason =
-                format!("frame_id is \"{frame}\"; this device's forces are in \"{}\"", self.frame_id);
-            self.reject(kit, "servo_cf", &reason);
-            return;
-        }
-        // Other clients' forces have stamps of their own and answer no pose.
-        lock(&self.exchange).answers.arrived(convert::stamp_ns(&message.header.stamp), received_ns);
-        // A force that is not finite goes on too: the motor loop makes it none, at once, and counts it.
-        let force_n = convert::dvec3_of_vector(&message.wrench.force);
-        self.motor.send_servo(ServoCommand { received_ns, force_n });
-    }
-
-    fn reject(&mut self, kit: &NodeKit, topic: &str, reason: &str) {
-        self.rejected += 1;
-        self.rejections.warn(kit.log(), || format!("{topic}: rejected: {reason}"));
+        Ok(self.desk.take(kit, &mut self.motor)?)
     }
 
     fn health(&self) -> Health {
-        let exchange = lock(&self.exchange);
+        let exchange = lock(&self.shared.exchange);
         Health {
             answers: exchange.answers.report(),
             counts: self.motor.counts(),
-            force_n: exchange.newest.map_or(0.0, |sample| sample.force_n.length()),
+            force_n: exchange.newest.map_or(0.0, |sample| sample.wrench.force_n.length()),
             peak_force_n: exchange.peak_force_n,
             peak_depth_m: exchange.peak_depth_m,
             max_force_n: self.max_force_n,
-            laws: self.laws,
-            rejected: self.rejected,
+            forces: self.forces.counts(),
             unsent: exchange.unsent,
         }
+    }
+
+    fn statuses(&self, health: &Health, before: &Health) -> Vec<node_kit::Status> {
+        let conflicts = self.forces.conflicts();
+        let mut statuses = health.statuses(before, &conflicts, &self.motor.scheduling().to_string());
+        statuses.push(self.operating_status());
+        statuses
+    }
+
+    fn operating_status(&self) -> node_kit::Status {
+        let newest = lock(&self.shared.exchange).newest;
+        self.report.status(self.motor.status(), newest.as_ref())
     }
 
     /// Motors off first, then what was measured, then the forces still on their way, then the report.
@@ -181,11 +146,36 @@ impl Driver {
         let ended = self.motor.stop();
         self.publisher.finish();
         let deadline = Instant::now() + LAST_FORCES;
-        while Instant::now() < deadline && !lock(&self.exchange).answers.is_complete() {
-            self.turn(kit);
+        while Instant::now() < deadline && !lock(&self.shared.exchange).answers.is_complete() {
+            self.turn(kit)?;
         }
+        self.desk.tell_end()?;
         kit.closing_report(&self.health().closing());
         ended.context("the motor loop ended; the motors are off")
+    }
+}
+
+/// Starts with the device that is open already; `backend` opens it again when it is lost.
+fn start_motor(
+    device: Box<dyn Device>,
+    backend: Backend,
+    settings: MotorSettings,
+    samples: SampleSender,
+) -> Result<MotorLoop, MotorError> {
+    let mut open = Some(device);
+    let opener = move || match open.take() {
+        Some(device) => Ok(device),
+        None => backend.open(),
+    };
+    MotorLoop::start(opener, settings, samples)
+}
+
+/// Sets the gravity compensation; false for a device that has none.
+fn can_carry_itself(device: &mut dyn Device, on: bool) -> Result<bool, DeviceError> {
+    match device.set_gravity_compensation(on) {
+        Ok(()) => Ok(true),
+        Err(DeviceError::Unsupported { .. }) => Ok(false),
+        Err(error) => Err(error),
     }
 }
 
@@ -212,16 +202,16 @@ fn only_lower_max_force(kit: &mut NodeKit, at_start_n: f64) {
 }
 
 /// Waits until `count` subscriptions of the poses are there, so that nobody misses the first one.
-fn wait_for_readers(kit: &mut NodeKit, topics: &DeviceTopics, count: usize) {
+fn wait_for_readers(kit: &mut NodeKit, outbox: &Outbox, count: usize) {
     if count == 0 {
         return;
     }
     let mut remind_at = Instant::now() + REMINDER;
-    while kit.is_running() && topics.readers() < count {
+    while kit.is_running() && outbox.readers() < count {
         kit.spin_once(TURN);
         if Instant::now() >= remind_at {
             remind_at += REMINDER;
-            let found = topics.readers();
+            let found = outbox.readers();
             kit.log().warn(&format!(
                 "device.wait_for_readers: {found} of {count} readers of measured_cp are there"
             ));

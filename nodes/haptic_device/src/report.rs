@@ -5,6 +5,7 @@ use node_kit::{Level, Status};
 use serde_json::{Value, json};
 
 use crate::answers::AnswerReport;
+use crate::forces::ForceCounts;
 
 /// Everything worth saying at one moment.
 #[derive(Clone, Copy, Debug)]
@@ -15,15 +16,14 @@ pub(crate) struct Health {
     pub(crate) peak_force_n: f64,
     pub(crate) peak_depth_m: f64,
     pub(crate) max_force_n: f64,
-    pub(crate) laws: u64,
-    pub(crate) rejected: u64,
+    pub(crate) forces: ForceCounts,
     pub(crate) unsent: u64,
 }
 
 impl Health {
-    /// The diagnostics. `before` is the health one report earlier.
-    pub(crate) fn statuses(&self, before: &Health, scheduling: &str) -> Vec<Status> {
-        vec![self.motor_status(before, scheduling), self.force_status(before)]
+    /// The diagnostics. `before` is the health one report earlier; `conflicts` says who disturbs whom.
+    pub(crate) fn statuses(&self, before: &Health, conflicts: &[String], scheduling: &str) -> Vec<Status> {
+        vec![self.motor_status(before, scheduling), self.force_status(before, conflicts)]
     }
 
     fn motor_status(&self, before: &Health, scheduling: &str) -> Status {
@@ -51,16 +51,22 @@ impl Health {
             .with("unusable_readings", now.unusable_readings)
             .with("unusable_forces", now.unusable_forces)
             .with("clamped_forces", now.clamped_forces)
+            .with("slewed_forces", now.slewed_forces)
+            .with("damped_ticks", now.damped_ticks)
+            .with("losses", now.losses)
+            .with("reopenings", now.reopenings)
             .with("max_force_n", self.max_force_n)
             .with("scheduling", scheduling)
     }
 
-    fn force_status(&self, before: &Health) -> Status {
+    fn force_status(&self, before: &Health, conflicts: &[String]) -> Status {
         let poses = self.answers.poses - before.answers.poses;
         let forces = self.answers.forces - before.answers.forces;
-        let laws = self.laws - before.laws;
-        let rejected = self.rejected - before.rejected;
-        let (level, summary) = if rejected > 0 {
+        let laws = self.forces.laws - before.forces.laws;
+        let rejected = self.forces.rejected - before.forces.rejected;
+        let (level, summary) = if !conflicts.is_empty() {
+            (Level::Error, conflicts.join("; "))
+        } else if rejected > 0 {
             (Level::Warn, format!("{rejected} forces or contact laws were rejected"))
         } else if poses > 0 && forces == 0 && laws == 0 {
             (Level::Warn, "nobody answers the poses: no force".to_owned())
@@ -83,8 +89,10 @@ impl Health {
             .with("latency_p99_us", p99_us)
             .with("latency_max_us", max_us)
             .with("missed_deadlines", self.answers.missed_deadlines)
-            .with("contact_laws", self.laws)
-            .with("rejected", self.rejected)
+            .with("contact_laws", self.forces.laws)
+            .with("rejected", self.forces.rejected)
+            .with("untimely", self.forces.untimely)
+            .with("contested", self.forces.contested)
             .with("force_n", format!("{:.3}", self.force_n))
             .with("peak_force_n", format!("{:.3}", self.peak_force_n))
             .with("peak_depth_mm", format!("{:.2}", 1000.0 * self.peak_depth_m))
@@ -118,8 +126,11 @@ impl Health {
             "unusable_readings": self.counts.unusable_readings,
             "unusable_forces": self.counts.unusable_forces,
             "clamped_forces": self.counts.clamped_forces,
-            "contact_laws": self.laws,
-            "rejected": self.rejected,
+            "contact_laws": self.forces.laws,
+            "rejected": self.forces.rejected,
+            "untimely": self.forces.untimely,
+            "contested": self.forces.contested,
+            "losses": self.counts.losses,
             "peak_force_n": self.peak_force_n,
             "peak_depth_mm": 1000.0 * self.peak_depth_m,
         })
@@ -139,14 +150,13 @@ mod tests {
             peak_force_n: 0.0,
             peak_depth_m: 0.0,
             max_force_n: 20.0,
-            laws: 0,
-            rejected: 0,
+            forces: ForceCounts::default(),
             unsent: 0,
         }
     }
 
     fn text(now: &Health) -> String {
-        format!("{:?}", now.statuses(&health(), "ordinary"))
+        format!("{:?}", now.force_status(&health(), &[]))
     }
 
     #[test]
@@ -163,10 +173,18 @@ mod tests {
     }
 
     #[test]
+    fn two_sources_of_one_command_are_an_error_that_names_them() {
+        let conflict = "servo_cf has 2 publishers (/a, /b)".to_owned();
+        let status = format!("{:?}", health().force_status(&health(), &[conflict]));
+        assert!(status.contains("level: Error") && status.contains("/a, /b"), "{status}");
+    }
+
+    #[test]
     fn forces_that_are_not_finite_are_an_error() {
         let mut now = health();
         now.counts.unusable_forces = 1;
-        assert!(text(&now).contains("level: Error, subject: \"motor loop\""));
+        let status = format!("{:?}", now.motor_status(&health(), "ordinary"));
+        assert!(status.contains("level: Error, subject: \"motor loop\""), "{status}");
     }
 
     #[test]
