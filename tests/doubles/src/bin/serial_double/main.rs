@@ -1,0 +1,71 @@
+//! A self-built device at a pseudo-terminal: the firmware of `serial_device/PROTOCOL.md` with a hand on its handle.
+//!
+//! ```text
+//! serial_double [--link PATH] [--record FILE] [--fault FAULT] [--serial TEXT] [--rate HZ] [--baud BIT/S] [--joints N]
+//!               [--homing S] [--max-speed M/S] [hand options]
+//! ```
+//! Prints `ready: /dev/pts/N`; SIGUSR1 pulls the cable, SIGUSR2 puts it back (at `--link` again, with another number),
+//! SIGTERM ends it and prints the longest time between two looks at the line.
+
+mod arguments;
+mod fault;
+mod firmware;
+mod line;
+
+use std::error::Error;
+use std::io::Write;
+use std::time::Duration;
+
+use arguments::Arguments;
+use firmware::Firmware;
+use line::Line;
+use rhombus_doubles::{Motors, Record, Signals, monotonic_ns};
+
+/// Between two looks at the line, and the step of the mechanics.
+const TICK: Duration = Duration::from_micros(250);
+/// After a pause longer than this the mechanics do not catch up: the machine slept.
+const CATCH_UP_NS: u64 = 200_000_000;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments = Arguments::parse(std::env::args().skip(1))?;
+    let signals = Signals::install();
+    let record = Record::create(arguments.record.as_deref())?;
+    let motors = Motors::new(Some(firmware::WATCHDOG), record);
+    let mut firmware = Firmware::new(&arguments, motors, TICK.as_secs_f64())?;
+    let mut line = Some(Line::open(&arguments)?);
+    if let Some(line) = &line {
+        announce(&format!("ready: {}", line.path()))?;
+    }
+    let tick_ns = TICK.as_nanos() as u64;
+    let (mut now_ns, mut longest_ns) = (monotonic_ns(), 0);
+    let mut due_ns = now_ns;
+    while !signals.ended() {
+        due_ns += tick_ns;
+        std::thread::sleep(Duration::from_nanos(due_ns.saturating_sub(monotonic_ns())));
+        let before_ns = std::mem::replace(&mut now_ns, monotonic_ns());
+        longest_ns = longest_ns.max(now_ns - before_ns);
+        if now_ns > due_ns + CATCH_UP_NS {
+            due_ns = now_ns;
+        }
+        if signals.unplugged() {
+            line = None;
+        } else if line.is_none() {
+            line = Some(Line::open(&arguments)?);
+        }
+        if let Some(line) = &mut line {
+            firmware.listen(line, now_ns)?;
+        }
+        firmware.advance(now_ns)?;
+        if let Some(line) = &mut line {
+            firmware.speak(line, now_ns)?;
+        }
+    }
+    announce(&format!("longest tick: {} us", longest_ns / 1000))?;
+    Ok(())
+}
+
+fn announce(what: &str) -> std::io::Result<()> {
+    let mut out = std::io::stdout();
+    writeln!(out, "{what}")?;
+    out.flush()
+}
