@@ -125,9 +125,6 @@ impl Source {
     pub fn want(&mut self, inputs: &Inputs) -> Wanted {
         let now_ns = inputs.now.monotonic_ns;
         let refused = self.servo.take(inputs.servo, inputs.now);
-        if inputs.mode != SourceMode::Hold || !inputs.permitted {
-            self.held = None;
-        }
         let candidate = match inputs.mode {
             SourceMode::Free => Some(NOBODY),
             SourceMode::Hold => Some(self.hold(inputs)),
@@ -137,6 +134,9 @@ impl Source {
             Some(candidate) => self.follow(candidate, now_ns),
             None => self.fall(now_ns),
         };
+        if inputs.mode != SourceMode::Hold || !inputs.permitted {
+            self.held = None;
+        }
         self.last = wanted.wrench;
         Wanted { refused, ..wanted }
     }

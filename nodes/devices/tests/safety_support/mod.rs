@@ -3,6 +3,8 @@
 #![allow(dead_code, reason = "each test uses its part")]
 #![expect(clippy::unwrap_used, reason = "helpers of tests, outside the test functions")]
 
+pub(crate) mod rig;
+
 use std::collections::VecDeque;
 
 use devices::safety::{CheckedSettings, SafetyLayer, SafetySettings};
