@@ -26,8 +26,8 @@ fn chains() -> Arc<ContactLaw> {
         angle_rad: 0.6,
         ratio: 0.8,
         units: 10,
-        normal_stiffness_n_per_m: 500.0,
-        tangential_stiffness_n_per_m: 100.0,
+        normal_stiffness_n_per_m: 8000.0,
+        tangential_stiffness_n_per_m: 1600.0,
         tangential_growth: 10.0,
         weight: 1.0,
         pitch_m: 0.016,
@@ -249,7 +249,7 @@ fn largest_step_n(wanted: &[Wanted]) -> f64 {
 
 #[test]
 fn no_change_of_source_steps_the_force() {
-    // Servo 3 N across, the law's force upward, hold, nobody, servo again, law again: 5 N apart at most, over 20 ms.
+    // Servo 3 N across, the law's force upward, hold, nobody, servo again, law again: over 20 ms each.
     let mut bench = Bench::new(ForceSource::ContactLaw);
     bench.state.pose.translation = DVec3::Z * -0.003;
     let mut all = Vec::new();
