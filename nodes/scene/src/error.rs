@@ -133,6 +133,45 @@ pub enum Problem {
         /// The other section's name.
         other_section: String,
     },
+    /// A driver's own section sets what only other nodes read.
+    #[error(
+        "in section {section}, but read by {owners} only; accepted in /** or in the section of one of those"
+    )]
+    OtherNodes {
+        /// The driver's section.
+        section: String,
+        /// Who reads the parameter.
+        owners: String,
+    },
+    /// A driver's own section differs from what other nodes read.
+    #[error(
+        "{value} in section {section}, but {with} would take {theirs}; one value is accepted for all who read it"
+    )]
+    Shared {
+        /// The driver's section.
+        section: String,
+        /// The value as written there.
+        value: String,
+        /// The other readers.
+        with: String,
+        /// What they read.
+        theirs: String,
+    },
+    /// A driver's own section is in front of one that says otherwise.
+    #[error(
+        "{value} in section {section} would be overruled by {other} in section {other_section}, which comes later in the \
+         file; accepted: in the reverse order"
+    )]
+    Overruled {
+        /// The driver's section.
+        section: String,
+        /// The value as written there.
+        value: String,
+        /// The later section.
+        other_section: String,
+        /// The value as written in it.
+        other: String,
+    },
     /// The values are each accepted, but not together.
     #[error("{0}")]
     Model(String),

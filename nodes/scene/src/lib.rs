@@ -31,6 +31,7 @@
 mod assignment;
 mod body;
 mod chains;
+mod drivers;
 mod error;
 pub mod generate;
 mod haptic_loop;
@@ -47,6 +48,7 @@ mod sites;
 mod stiffness_file;
 mod value;
 mod yaml;
+mod yaml_value;
 
 pub use body::{LoadedBody, Warning};
 pub use chains::ChainSettings;

@@ -1,14 +1,17 @@
 //! A ROS 2 parameter file: which sections there are, which of them apply, and what they set.
 //!
 //! The rules are those of the nodes' own reader: the sections `/**`, `**`, a node's full name and its bare name
-//! apply, in file order; other wildcards would be ignored without a word there, so they are refused here.
+//! apply, in file order. What would be ignored without a word there is refused here: other wildcards, full names without
+//! their first slash, and a full name that lacks the namespace of the node that reads.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::drivers;
 use crate::parameters::check;
 use crate::schema::{Kind, Node, ParameterSpec, nearest_name, spec};
 use crate::yaml::{self, Content, Tree};
+use crate::yaml_value::{mixed, value_of};
 use crate::{Origin, Parameters, Problem, SceneError, Value};
 
 const SHAPE: &str = "a ROS 2 parameter file has a section (/**: or a node's name), in it ros__parameters:, and in \
@@ -18,7 +21,8 @@ const SHAPE: &str = "a ROS 2 parameter file has a section (/**: or a node's name
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reader<'a> {
     /// Somebody who wants the whole scene: the wildcard sections and every section named after one of our nodes. A
-    /// parameter that two sections set differently is an error.
+    /// parameter that two sections set differently is an error. Sections of single drivers (`/left/haptic_device`) are
+    /// checked and set nothing: see [`Parameters::drivers_in_file`].
     Everything,
     /// The node with this full name, like `/left/deformation`: what its own reader would apply; later sections win.
     Node(&'a str),
@@ -30,19 +34,8 @@ impl Parameters {
     /// # Errors
     /// The file cannot be read, is not YAML, is not a parameter file, or says something that is not accepted.
     pub fn from_file(path: &Path, reader: Reader<'_>) -> Result<Parameters, SceneError> {
-        let bytes = std::fs::read(path)
-            .map_err(|error| Origin::file(path, "").error(None, None, Problem::Unreadable(error)))?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let valid = error.utf8_error().valid_up_to();
-            let line = error.as_bytes().iter().take(valid).filter(|byte| **byte == b'\n').count() + 1;
-            SceneError {
-                file: path.display().to_string(),
-                line: Some(line),
-                key: None,
-                problem: Box::new(Problem::Syntax("not UTF-8 text".to_owned())),
-            }
-        })?;
-        Parameters::from_text(&text, Origin::file(path, &text), reader)
+        let (origin, tree) = read_file(path)?;
+        Parameters::from_tree(&tree, origin, reader)
     }
 
     pub(crate) fn from_text(
@@ -50,17 +43,16 @@ impl Parameters {
         origin: Origin,
         reader: Reader<'_>,
     ) -> Result<Parameters, SceneError> {
-        let tree = yaml::parse(text).map_err(|error| SceneError {
-            file: origin.name().to_owned(),
-            line: error.line,
-            key: None,
-            problem: Box::new(Problem::Syntax(error.message)),
-        })?;
-        if tree.content == Content::Null {
-            return Err(origin.error(None, None, Problem::Empty { accepted: SHAPE }));
-        }
+        let tree = parsed(text, &origin)?;
+        Parameters::from_tree(&tree, origin, reader)
+    }
+
+    fn from_tree(tree: &Tree, origin: Origin, reader: Reader<'_>) -> Result<Parameters, SceneError> {
         let file = File { origin: &origin };
-        let sections = file.sections(&tree)?;
+        let sections = file.sections(tree)?;
+        if let Reader::Node(full_name) = reader {
+            file.refuse_other_namespaces(full_name, &sections)?;
+        }
         let mut parameters = Parameters::defaults(origin.clone());
         let mut set_by: BTreeMap<String, (&str, Value)> = BTreeMap::new();
         for section in sections.iter().filter(|section| section.applies_to(reader)) {
@@ -80,30 +72,67 @@ impl Parameters {
                 set_by.insert(key, (&section.name, value));
             }
         }
+        if reader == Reader::Everything {
+            drivers::check(&file, &sections, &parameters)?;
+        }
         Ok(parameters)
     }
 }
 
-struct Section<'a> {
-    name: String,
+/// A parameter file as a tree, and where it comes from.
+pub(crate) fn read_file(path: &Path) -> Result<(Origin, Tree), SceneError> {
+    let bytes = std::fs::read(path)
+        .map_err(|error| Origin::file(path, "").error(None, None, Problem::Unreadable(error)))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let line = error.as_bytes().iter().take(valid).filter(|byte| **byte == b'\n').count() + 1;
+        SceneError {
+            file: path.display().to_string(),
+            line: Some(line),
+            key: None,
+            problem: Box::new(Problem::Syntax("not UTF-8 text".to_owned())),
+        }
+    })?;
+    let origin = Origin::file(path, &text);
+    let tree = parsed(&text, &origin)?;
+    Ok((origin, tree))
+}
+
+fn parsed(text: &str, origin: &Origin) -> Result<Tree, SceneError> {
+    let tree = yaml::parse(text).map_err(|error| SceneError {
+        file: origin.name().to_owned(),
+        line: error.line,
+        key: None,
+        problem: Box::new(Problem::Syntax(error.message)),
+    })?;
+    if tree.content == Content::Null {
+        return Err(origin.error(None, None, Problem::Empty { accepted: SHAPE }));
+    }
+    Ok(tree)
+}
+
+pub(crate) struct Section<'a> {
+    pub(crate) name: String,
     parameters: &'a Tree,
 }
 
 impl Section<'_> {
-    fn applies_to(&self, reader: Reader<'_>) -> bool {
+    pub(crate) fn applies_to(&self, reader: Reader<'_>) -> bool {
         if matches!(self.name.as_str(), "/**" | "**") {
             return true;
         }
         let (_, bare) = self.name.rsplit_once('/').unwrap_or(("", &self.name));
         match reader {
-            Reader::Everything => Node::ALL.iter().any(|node| node.name() == bare),
+            Reader::Everything => {
+                !drivers::is_of_one_driver(&self.name) && Node::ALL.iter().any(|node| node.name() == bare)
+            }
             Reader::Node(full) => self.name == full || Some(self.name.as_str()) == full.rsplit('/').next(),
         }
     }
 }
 
-struct File<'a> {
-    origin: &'a Origin,
+pub(crate) struct File<'a> {
+    pub(crate) origin: &'a Origin,
 }
 
 impl File<'_> {
@@ -111,7 +140,7 @@ impl File<'_> {
         self.origin.error(None, Some(tree.node), Problem::Layout(message))
     }
 
-    fn sections<'t>(&self, root: &'t Tree) -> Result<Vec<Section<'t>>, SceneError> {
+    pub(crate) fn sections<'t>(&self, root: &'t Tree) -> Result<Vec<Section<'t>>, SceneError> {
         let mut sections = Vec::new();
         self.collect_sections("", root, &mut sections)?;
         for (i, section) in sections.iter().enumerate() {
@@ -126,11 +155,35 @@ impl File<'_> {
                 );
                 return Err(self.layout(section.parameters, message));
             }
+            if section.name.contains('/') && !section.name.starts_with('/') {
+                let name = &section.name;
+                let message = format!(
+                    "section {name} would be ignored by the nodes; accepted: /{name}, with its first slash"
+                );
+                return Err(self.layout(section.parameters, message));
+            }
         }
         Ok(sections)
     }
 
-    /// Namespaces may be nested as maps: `left: {deformation: {ros__parameters: ...}}` is `/left/deformation`.
+    /// A full name that fits the reader but for a namespace in front is a mistake, unless the reader has its own section.
+    fn refuse_other_namespaces(&self, full_name: &str, sections: &[Section<'_>]) -> Result<(), SceneError> {
+        let has_its_own = sections.iter().any(|section| section.name == full_name);
+        let misses =
+            |section: &&Section<'_>| section.name.starts_with('/') && full_name.ends_with(&section.name);
+        match sections.iter().find(misses) {
+            Some(section) if !has_its_own => {
+                let message = format!(
+                    "section {} would be ignored by {full_name}; accepted: the full name, or a node's bare name",
+                    section.name
+                );
+                Err(self.layout(section.parameters, message))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Namespaces may be nested as maps: `/left: {deformation: {ros__parameters: ...}}` is `/left/deformation`.
     fn collect_sections<'t>(
         &self,
         prefix: &str,
@@ -156,7 +209,7 @@ impl File<'_> {
             } else {
                 let name = match prefix {
                     "" => key_text.clone(),
-                    _ => format!("/{}/{}", prefix.trim_matches('/'), key_text.trim_matches('/')),
+                    _ => format!("{}/{}", prefix.trim_end_matches('/'), key_text.trim_matches('/')),
                 };
                 self.collect_sections(&name, value, sections)?;
             }
@@ -165,7 +218,7 @@ impl File<'_> {
     }
 
     /// What a section sets, in file order: dotted name, place, value with the right type.
-    fn values(&self, section: &Section<'_>) -> Result<Vec<(String, usize, Value)>, SceneError> {
+    pub(crate) fn values(&self, section: &Section<'_>) -> Result<Vec<(String, usize, Value)>, SceneError> {
         let mut leaves = Vec::new();
         self.collect_leaves("", section.parameters, &mut leaves)?;
         let mut first_places: BTreeMap<&str, usize> = BTreeMap::new();
@@ -243,51 +296,5 @@ impl File<'_> {
     fn is_boolean_to_ros(&self, text: &str, leaf: &Tree) -> bool {
         const WORDS: [&str; 8] = ["y", "n", "yes", "no", "on", "off", "true", "false"];
         WORDS.contains(&text.to_ascii_lowercase().as_str()) && !self.origin.is_quoted(leaf.node)
-    }
-}
-
-/// The ROS value of a scalar or of a list whose entries all have one type.
-fn value_of(content: &Content) -> Option<Value> {
-    match content {
-        Content::Null | Content::Map(_) => None,
-        Content::Bool(v) => Some(Value::Bool(*v)),
-        Content::Integer(v) => Some(Value::Integer(*v)),
-        Content::Double(v) => Some(Value::Double(*v)),
-        Content::Text(v) => Some(Value::String(v.clone())),
-        Content::List(items) => {
-            fn all<T>(items: &[Tree], take: impl Fn(&Content) -> Option<T>) -> Option<Vec<T>> {
-                items.iter().map(|item| take(&item.content)).collect()
-            }
-            all(items, |c| if let Content::Double(v) = c { Some(*v) } else { None })
-                .map(Value::DoubleArray)
-                .or_else(|| {
-                    all(items, |c| if let Content::Integer(v) = c { Some(*v) } else { None })
-                        .map(Value::IntegerArray)
-                })
-                .or_else(|| {
-                    all(items, |c| if let Content::Text(v) = c { Some(v.clone()) } else { None })
-                        .map(Value::StringArray)
-                })
-                .or_else(|| {
-                    all(items, |c| if let Content::Bool(v) = c { Some(*v) } else { None })
-                        .map(Value::BoolArray)
-                })
-        }
-    }
-}
-
-fn mixed(items: &[Tree], spec: &ParameterSpec, list: &Content) -> Problem {
-    let first = items.first().map_or("nothing", |item| item.content.type_in_words());
-    let other = items.iter().map(|item| item.content.type_in_words()).find(|words| *words != first);
-    match other {
-        Some(other) => {
-            Problem::MixedArray { value: list.to_string(), first, other, accepted: spec.accepted() }
-        }
-        None => Problem::WrongType {
-            value: list.to_string(),
-            found: "an array whose entries are not scalars",
-            accepted: spec.accepted(),
-            hint: "",
-        },
     }
 }

@@ -87,7 +87,7 @@ fn a_node_reads_the_sections_that_its_own_reader_would_apply_in_file_order() {
 
 #[test]
 fn namespaces_may_be_nested() {
-    let text = "left:\n  deformation:\n    ros__parameters: {surface.rate: 7.0}\n";
+    let text = "/left:\n  deformation:\n    ros__parameters: {surface.rate: 7.0}\n";
     let rate = |reader| read_bytes(text.as_bytes(), reader).expect("accepted").surface.rate_hz;
     assert_eq!(rate(Reader::Node("/left/deformation")), 7.0);
     assert_eq!(rate(Reader::Everything), 7.0);
@@ -182,6 +182,37 @@ fn a_wildcard_that_the_nodes_would_ignore() {
         error("/**/deformation:\n  ros__parameters: {surface.rate: 1.0}\n"),
         "scene.yaml:2: section /**/deformation would be ignored by the nodes; accepted: /**, a node's name, or its full name"
     );
+}
+
+#[test]
+fn a_full_name_without_its_first_slash_that_the_nodes_would_ignore() {
+    for text in [
+        "left:\n  deformation:\n    ros__parameters: {surface.rate: 7.0}\n",
+        "# a scene\n\nleft/deformation: {ros__parameters: {surface.rate: 7.0}}\n",
+    ] {
+        assert_eq!(
+            error(text),
+            "scene.yaml:3: section left/deformation would be ignored by the nodes; accepted: /left/deformation, with its \
+             first slash"
+        );
+    }
+}
+
+#[test]
+fn a_full_name_that_lacks_the_namespace_of_the_session() {
+    let text = "/**:\n  ros__parameters: {surface.rate: 1.0}\n/left/deformation:\n  ros__parameters: {surface.rate: 7.0}\n";
+    let read =
+        |text: &str, node| read_bytes(text.as_bytes(), Reader::Node(node)).map(|scene| scene.surface.rate_hz);
+    assert_eq!(
+        read(text, "/or/left/deformation"),
+        Err("scene.yaml:4: section /left/deformation would be ignored by /or/left/deformation; accepted: the full name, or \
+             a node's bare name"
+            .to_owned())
+    );
+    assert_eq!(read(text, "/right/deformation"), Ok(1.0), "another one's");
+    assert_eq!(read(text, "/cleft/deformation"), Ok(1.0));
+    let both = format!("{text}/or/left/deformation:\n  ros__parameters: {{surface.rate: 9.0}}\n");
+    assert_eq!(read(&both, "/or/left/deformation"), Ok(9.0));
 }
 
 #[test]
