@@ -136,7 +136,7 @@ impl Heard {
         match (*bytes, *frames, *bad_frames) {
             (0, _, _) => (
                 format!("no answer, 0 bytes within {seconds} s"),
-                "check power, cable and firmware, and that serial.port is the device",
+                "check power, cable, firmware and serial.baud, and that serial.port is the device",
             ),
             (_, 0, 0) => (
                 format!(

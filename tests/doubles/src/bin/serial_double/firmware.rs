@@ -177,10 +177,7 @@ impl Firmware {
             (self.latched, self.cause) = (None, Cause::Command);
             return Ok(());
         }
-        if self.latched.is_some() {
-            return Ok(());
-        }
-        if !self.motors.are_on() {
+        if !self.motors.are_on() && self.latched.is_none() {
             self.motors.enable(now_ns)?;
             self.cause = Cause::None;
         }

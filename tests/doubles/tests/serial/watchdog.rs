@@ -1,0 +1,75 @@
+//! A driver that stops driving: the device's own watchdog takes the force away.
+
+use std::time::Duration;
+
+use devices::{Device, Wrench};
+use glam::DVec3;
+
+use crate::client::{Client, FORCE_N};
+use crate::double::{Double, Line, read_until, wait_until};
+
+const WATCHDOG: Duration = Duration::from_millis(20);
+
+/// The last command before the watchdog acted, and the watchdog's line.
+fn last_command_and_watchdog(record: &[Line]) -> (&Line, &Line) {
+    let at = record.iter().position(|line| line.event == "watchdog").unwrap();
+    (&record[at - 1], &record[at])
+}
+
+fn assert_force_ended_in_time(record: &[Line], longest_tick: Duration) {
+    let (command, watchdog) = last_command_and_watchdog(record);
+    assert_eq!(command.wrench[0], FORCE_N, "it was pressing");
+    assert!(watchdog.is_zero());
+    let held = Duration::from_nanos(watchdog.t_ns - command.t_ns);
+    assert!(held >= WATCHDOG && held <= WATCHDOG + longest_tick, "{held:?}, double's tick {longest_tick:?}");
+}
+
+#[test]
+fn a_killed_driver_leaves_no_force_after_20_ms() {
+    let double = Double::start("");
+    let client = Client::start(&double.port());
+    double.wait_for(0, |line| line.wrench[0] == FORCE_N);
+    client.signal("KILL");
+    double.wait_for(0, |line| line.event == "watchdog");
+    let record = double.record();
+    assert_force_ended_in_time(&record, double.end());
+}
+
+#[test]
+fn a_stopped_driver_leaves_no_force_after_20_ms_and_gets_none_back_when_it_goes_on() {
+    let double = Double::start("");
+    let mut client = Client::start(&double.port());
+    double.wait_for(0, |line| line.wrench[0] == FORCE_N);
+    client.signal("STOP");
+    double.wait_for(0, |line| line.event == "watchdog");
+    client.signal("CONT");
+    assert!(client.ended_well());
+    let record = double.record();
+    let (_, watchdog) = last_command_and_watchdog(&record);
+    assert!(record.iter().filter(|line| line.t_ns > watchdog.t_ns).count() > 50, "it went on commanding");
+    assert!(record.iter().filter(|line| line.t_ns > watchdog.t_ns).all(Line::is_zero));
+    assert_force_ended_in_time(&record, double.end());
+}
+
+#[test]
+fn a_device_whose_watchdog_acted_pushes_again_after_it_is_enabled_again() {
+    let double = Double::start("");
+    let mut device = double.open().unwrap();
+    let push = Wrench::of_force(DVec3::Z);
+    device.enable().unwrap();
+    device.command(&push).unwrap();
+    let watchdog = double.wait_for(0, |line| line.event == "watchdog");
+    read_until(&mut device, |state| state.motors_off.is_some());
+    device.command(&push).unwrap();
+    device.enable().unwrap();
+    assert_eq!(device.read().unwrap().motors_off, None, "what it said before it was enabled does not count");
+    wait_until("a push", || {
+        device.command(&push).unwrap();
+        assert_eq!(device.read().unwrap().motors_off, None);
+        double.record().iter().any(|line| line.t_ns > watchdog.t_ns && !line.is_zero())
+    });
+    let record = double.record();
+    let again = record.iter().rposition(|line| line.event == "enable").unwrap();
+    let between = record.iter().take(again).skip_while(|line| line.event != "watchdog");
+    assert!(between.into_iter().all(Line::is_zero));
+}
