@@ -360,3 +360,15 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn the_energy_of_periods_without_a_reading_is_counted_with_the_next_one() {
+    let mut rig = Rig::engaged(without_passivity(), still(DVec3::ZERO));
+    rig.steps(Ask::force(DVec3::X * 5.5), 10);
+    // The handle goes on by 1 mm a period while the force falls unseen from 5.5 N by 2 N a period.
+    let blind = rig.steps(Ask { blind: true, ..Ask::default() }, 3);
+    assert_eq!(blind[2].applied.wrench, Wrench::ZERO);
+    let before_j = rig.layer.energy().given_j;
+    rig.step(Ask { state: moving(DVec3::X * 0.004, DVec3::X), ..Ask::default() });
+    assert!((rig.layer.energy().given_j - before_j - 0.001 * (5.5 + 3.5 + 1.5)).abs() < 1e-9);
+}

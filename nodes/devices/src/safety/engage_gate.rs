@@ -51,30 +51,19 @@ impl EngageGate {
         self.state = State::Closed(0);
     }
 
-    /// The share of `wrench` that passes in this period. RT safe.
-    pub(super) fn apply(
-        &mut self,
-        wanted: &Wanted,
-        wrench: Wrench,
-        elapsed_s: f64,
-        dt_s: f64,
-        hit: &mut LimitsHit,
-    ) -> Wrench {
+    /// The share of the force that passes in this period, 0 to 1. RT safe.
+    pub(super) fn share(&mut self, wanted: &Wanted, elapsed_s: f64, dt_s: f64, hit: &mut LimitsHit) -> f64 {
         self.silent_s = if wanted.origin == ForceOrigin::Nobody { self.silent_s + elapsed_s } else { 0.0 };
         if self.silent_s > LONGEST_SILENCE_S {
             self.close();
         }
-        let share = self.share(wanted, dt_s);
-        hit.insert_if(share == 0.0, LimitsHit::ENGAGE_GATE);
+        let share = self.step(wanted, dt_s);
+        hit.insert_if(share <= 0.0, LimitsHit::ENGAGE_GATE);
         hit.insert_if(share > 0.0 && share < 1.0, LimitsHit::ENGAGE_RAMP);
-        Wrench {
-            force_n: wrench.force_n * share,
-            torque_n_m: wrench.torque_n_m * share,
-            gripper_force_n: wrench.gripper_force_n * share,
-        }
+        share
     }
 
-    fn share(&mut self, wanted: &Wanted, dt_s: f64) -> f64 {
+    fn step(&mut self, wanted: &Wanted, dt_s: f64) -> f64 {
         match self.state {
             State::Open(since_s) => {
                 let since_s = since_s + dt_s;

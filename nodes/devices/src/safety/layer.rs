@@ -5,6 +5,7 @@ use super::energy::{Energy, EnergyObserver};
 use super::engage_gate::{EngageGate, LONGEST_SILENCE_S};
 use super::passivity::PassivityController;
 use super::slew::Slew;
+use super::vector::sum;
 use super::velocity_guard::VelocityGuard;
 use super::workspace_edge::WorkspaceEdge;
 use super::{CheckedSettings, FaultCause, LimitsHit, finite, power};
@@ -39,6 +40,8 @@ pub struct SafetyLayer {
     guard: VelocityGuard,
     last_ns: Option<u64>,
     blind_s: f64,
+    /// The applied wrench times its time since the last reading, where readings are missing since then.
+    blind_impulse: Wrench,
     applied: Wrench,
     /// What the passivity controller took out of it.
     kept: Wrench,
@@ -68,6 +71,7 @@ impl SafetyLayer {
             guard: VelocityGuard::new(settings.max_speed_m_per_s, period_s),
             last_ns: None,
             blind_s: 0.0,
+            blind_impulse: Wrench::ZERO,
             applied: Wrench::ZERO,
             kept: Wrench::ZERO,
         }
@@ -85,19 +89,20 @@ impl SafetyLayer {
         let Elapsed { elapsed_s, dt_s } = self.elapsed(now_ns);
         let mut hit = LimitsHit::NONE;
         hit.insert_if(wanted.refused, LimitsHit::NOT_FINITE);
-        self.blind_s = 0.0;
-        self.energy.observe(&self.applied, &self.kept, state, elapsed_s);
+        let held = self.held(elapsed_s);
+        self.energy.observe(&held, &self.kept, state, elapsed_s);
         let fault = self.guard(state, permits_force, elapsed_s);
 
         let mut target = finite::or_nothing(wanted.wrench, &mut hit);
         self.kept = Wrench::ZERO;
         if permits_force && fault.is_none() {
-            target = self.gate.apply(wanted, target, elapsed_s, dt_s, &mut hit);
+            let share = self.gate.share(wanted, elapsed_s, dt_s, &mut hit);
+            target = sum(&Wrench::ZERO, &target, share);
             target = self.clamp.apply(target, &mut hit);
             target = self.edge.apply(target, state, &mut hit);
             let before = target;
-            target = self.passivity.apply(target, state, &self.energy, &mut hit);
-            self.kept = difference(&before, &target);
+            target = self.passivity.apply(target, state, &self.energy, share, &mut hit);
+            self.kept = sum(&before, &target, -1.0);
             target = power::limited(target, state, self.max_power_w, &mut hit);
             target = self.clamp.apply(target, &mut hit);
         } else {
@@ -113,9 +118,11 @@ impl SafetyLayer {
         let Elapsed { elapsed_s, dt_s } = self.elapsed(now_ns);
         let mut hit = LimitsHit::NONE;
         self.blind_s += elapsed_s;
+        self.blind_impulse = sum(&self.blind_impulse, &self.applied, elapsed_s);
         if self.blind_s > LONGEST_BLINDNESS_S {
             self.gate.close();
         }
+        self.kept = Wrench::ZERO;
         self.applied = self.slew.apply(&self.applied, &Wrench::ZERO, dt_s, &mut hit);
         Applied { wrench: self.applied, fault: None, limits_hit: hit }
     }
@@ -141,6 +148,18 @@ impl SafetyLayer {
         self.energy.energy()
     }
 
+    /// What the motors held since the last reading: after missing ones, on the average.
+    fn held(&mut self, elapsed_s: f64) -> Wrench {
+        if self.blind_s <= 0.0 {
+            return self.applied;
+        }
+        let impulse = sum(&self.blind_impulse, &self.applied, elapsed_s);
+        let held = sum(&Wrench::ZERO, &impulse, 1.0 / (self.blind_s + elapsed_s));
+        self.blind_s = 0.0;
+        self.blind_impulse = Wrench::ZERO;
+        held
+    }
+
     fn elapsed(&mut self, now_ns: u64) -> Elapsed {
         let elapsed_s =
             self.last_ns.map_or(self.period_s, |last_ns| now_ns.saturating_sub(last_ns) as f64 * 1e-9);
@@ -158,13 +177,5 @@ impl SafetyLayer {
             return None;
         }
         self.guard.is_too_fast(state, elapsed_s).then_some(FaultCause::Velocity)
-    }
-}
-
-fn difference(a: &Wrench, b: &Wrench) -> Wrench {
-    Wrench {
-        force_n: a.force_n - b.force_n,
-        torque_n_m: a.torque_n_m - b.torque_n_m,
-        gripper_force_n: a.gripper_force_n - b.gripper_force_n,
     }
 }

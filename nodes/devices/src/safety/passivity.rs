@@ -60,12 +60,14 @@ impl PassivityController {
         }
     }
 
-    /// The part of `wrench` that the remaining energy is enough for, with damping while there is a deficit. RT safe.
+    /// The part of `wrench` that the remaining energy is enough for, with damping while there is a deficit: `share` of it,
+    /// because it too is a force that has to be let in by the engage gate. RT safe.
     pub(super) fn apply(
         &self,
         wrench: Wrench,
         state: &DeviceState,
         energy: &EnergyObserver,
+        share: f64,
         hit: &mut LimitsHit,
     ) -> Wrench {
         if !self.on {
@@ -82,13 +84,14 @@ impl PassivityController {
         if self.force.energy_j(force, speed) + self.torque.energy_j(torque, turn) > left_j {
             // By the energy that each would give a handle at rest.
             let (of_force, of_torque) = (self.force.energy_j(force, 0.0), self.torque.energy_j(torque, 0.0));
-            let share = of_force / (of_force + of_torque);
-            kept.force_n = limited(wrench.force_n, self.force.largest(speed, left_j * share));
-            kept.torque_n_m = limited(wrench.torque_n_m, self.torque.largest(turn, left_j * (1.0 - share)));
+            let part = of_force / (of_force + of_torque);
+            kept.force_n = limited(wrench.force_n, self.force.largest(speed, left_j * part));
+            kept.torque_n_m = limited(wrench.torque_n_m, self.torque.largest(turn, left_j * (1.0 - part)));
         }
         if left_j < ALLOWANCE_J {
-            let share = (1.0 - left_j / ALLOWANCE_J).clamp(0.0, 1.0);
-            kept.force_n -= limited(velocity * (self.damping_n_s_per_m * share), LARGEST_DAMPING_N);
+            let missing = (1.0 - left_j / ALLOWANCE_J).clamp(0.0, 1.0);
+            let damping_n = limited(velocity * (self.damping_n_s_per_m * missing), LARGEST_DAMPING_N);
+            kept.force_n -= damping_n * share;
         }
         hit.insert_if(kept != wrench, LimitsHit::PASSIVITY);
         kept

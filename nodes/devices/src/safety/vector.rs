@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::Wrench;
+
 /// Keeps a rounded result on the inner side of its limit.
 const INSIDE: f64 = 1.0 - 1e-12;
 
@@ -30,6 +32,15 @@ pub(crate) fn towards(from: DVec3, to: DVec3, step: f64) -> DVec3 {
 /// [`towards`] for numbers. RT safe.
 pub(crate) fn towards_number(from: f64, to: f64, step: f64) -> f64 {
     from + (to - from).clamp(-step * INSIDE, step * INSIDE)
+}
+
+/// `a + share * b`. RT safe.
+pub(crate) fn sum(a: &Wrench, b: &Wrench, share: f64) -> Wrench {
+    Wrench {
+        force_n: a.force_n + b.force_n * share,
+        torque_n_m: a.torque_n_m + b.torque_n_m * share,
+        gripper_force_n: a.gripper_force_n + b.gripper_force_n * share,
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! A change of source without a step of the force.
 
 use crate::Wrench;
+use crate::safety::vector::sum;
 
 /// Time in which the difference between two sources fades, ns. Long against a period of the loop, short for a hand.
 const FADE_NS: u64 = 20_000_000;
@@ -16,7 +17,7 @@ pub(super) struct HandOver {
 impl HandOver {
     /// From now on `from` goes over into what the new source, which says `to` at this moment, will say. RT safe.
     pub(super) fn begin(&mut self, from: &Wrench, to: &Wrench, now_ns: u64) {
-        let difference = plus(from, to, -1.0);
+        let difference = sum(from, to, -1.0);
         *self = HandOver { difference, began_ns: now_ns, fading: difference != Wrench::ZERO };
     }
 
@@ -34,15 +35,6 @@ impl HandOver {
 
     /// What the new source says with `share` of the difference added. RT safe.
     pub(super) fn blend(&self, to: &Wrench, share: f64) -> Wrench {
-        plus(to, &self.difference, share)
-    }
-}
-
-/// `a + share * b`.
-fn plus(a: &Wrench, b: &Wrench, share: f64) -> Wrench {
-    Wrench {
-        force_n: a.force_n + b.force_n * share,
-        torque_n_m: a.torque_n_m + b.torque_n_m * share,
-        gripper_force_n: a.gripper_force_n + b.gripper_force_n * share,
+        sum(to, &self.difference, share)
     }
 }

@@ -1,6 +1,6 @@
 //! A safety layer with a handle whose motion the test prescribes, and the record of every period.
 
-use devices::safety::{Applied, CheckedSettings, LimitsHit, SafetyLayer, SafetySettings};
+use devices::safety::{Applied, CheckedSettings, Energy, LimitsHit, SafetyLayer, SafetySettings};
 use devices::source::{ForceOrigin, Wanted};
 use devices::{DeviceLimits, DeviceState, Workspace, Wrench};
 use glam::{DQuat, DVec3};
@@ -55,6 +55,7 @@ pub(crate) struct Done {
     pub(crate) ask: Ask,
     pub(crate) before: Wrench,
     pub(crate) applied: Applied,
+    pub(crate) energy: Energy,
 }
 
 impl Done {
@@ -111,7 +112,7 @@ impl Rig {
         } else {
             self.layer.step(&wanted, &ask.state, ask.permits, self.now_ns)
         };
-        let done = Done { ask, before, applied };
+        let done = Done { ask, before, applied, energy: self.layer.energy() };
         self.check(&done);
         done
     }
