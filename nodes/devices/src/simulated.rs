@@ -1,22 +1,28 @@
 //! A device that is not there: a delta-like handle with a hand on it that follows a script and feels the force.
 
+mod flaws;
 mod hand;
 mod plan;
 mod script;
+mod wrist;
 
+pub use flaws::Flaws;
 pub use hand::{Hand, HandSettings};
 pub use plan::{Motion, Site, press_slide_grasp_pull};
 pub use script::{Phase, Script, ScriptError, Segment, Target};
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use rhombus_chain::Pose;
 
 use crate::{Description, Device, DeviceError, DeviceLimits, DeviceState, Workspace, Wrench};
+use flaws::Measurement;
+use wrist::Wrist;
 
-/// The device that the reference experiment used: a 6-DOF delta, 360 mm in diameter, 300 mm high, 20 N.
+/// The device that the reference experiment used: a 6-DOF delta, 360 mm in diameter, 300 mm high, 20 N. The torque is that
+/// of the wrists of its class; the gripper has no motor.
 pub const LIMITS: DeviceLimits = DeviceLimits {
     max_force_n: Some(20.0),
-    max_torque_n_m: None,
+    max_torque_n_m: Some(0.2),
     max_gripper_force_n: None,
     workspace: Workspace { centre: DVec3::ZERO, radius_m: 0.18, height_m: 0.3 },
 };
@@ -30,17 +36,21 @@ pub struct Settings {
     pub script: Script,
     /// Time between two commands, s: the motor loop's period.
     pub period_s: f64,
+    /// What is wrong with the readings.
+    pub flaws: Flaws,
 }
 
 /// The simulated device. Its clock is the number of commands it got: [`read`](Device::read) looks at the handle,
 /// [`command`](Device::command) lets one period pass under that force. So the same forces give the same motion, bit
-/// for bit, however late the loop is.
+/// for bit, however late the loop is. Motors that are off leave the hand to itself.
 #[derive(Clone, Debug)]
 pub struct SimulatedDevice {
     description: Description,
     script: Script,
     period_s: f64,
     hand: Hand,
+    wrist: Wrist,
+    measurement: Option<Measurement>,
     commands: u64,
     enabled: bool,
 }
@@ -51,27 +61,56 @@ impl SimulatedDevice {
     /// # Errors
     /// [`DeviceError::Setting`] names the parameter that is no mechanics.
     pub fn open(settings: Settings) -> Result<SimulatedDevice, DeviceError> {
-        let Settings { hand, script, period_s } = settings;
+        let Settings { hand, script, period_s, flaws } = settings;
         let hand = Hand::new(hand, period_s, script.at(0.0).position)?;
+        let (steps, step_s) = hand.steps();
+        let wrist = Wrist::new(steps, step_s);
         let description = Description {
             backend: "simulated",
             model: "scripted hand on a delta".to_owned(),
             serial: String::new(),
             firmware: String::new(),
             limits: LIMITS,
-            buttons: Vec::new(),
-            joints: Vec::new(),
+            buttons: vec!["button1".to_owned(), "button2".to_owned()],
+            joints: ["x", "y", "z"].map(str::to_owned).to_vec(),
             has_gripper: true,
             needs_homing: false,
             watchdog: None,
             status_names: &[],
         };
-        Ok(SimulatedDevice { description, script, period_s, hand, commands: 0, enabled: false })
+        let measurement = None;
+        let mut device = SimulatedDevice {
+            description,
+            script,
+            period_s,
+            hand,
+            wrist,
+            measurement,
+            commands: 0,
+            enabled: false,
+        };
+        device.measurement = Measurement::new(flaws, period_s, device.truth())?;
+        Ok(device)
     }
 
     /// What the hand is doing. RT safe.
     pub fn target(&self) -> Target {
         self.script.at(self.time_s())
+    }
+
+    /// The handle as it really is. RT safe.
+    fn truth(&self) -> DeviceState {
+        let position = self.hand.position();
+        let pose = Pose { translation: position, rotation: self.wrist.orientation() };
+        let mut state = DeviceState {
+            linear_velocity_m_per_s: self.hand.velocity(),
+            angular_velocity_rad_per_s: self.wrist.angular_velocity_rad_per_s(),
+            gripper_rad: Some(self.target().gripper_rad),
+            device_time_ns: (self.time_s() * 1e9).round() as u64,
+            ..DeviceState::at_rest(pose)
+        };
+        state.joints[..3].copy_from_slice(&position.to_array());
+        state
     }
 
     fn time_s(&self) -> f64 {
@@ -85,20 +124,19 @@ impl Device for SimulatedDevice {
     }
 
     fn read(&mut self) -> Result<DeviceState, DeviceError> {
-        let pose = Pose { translation: self.hand.position(), rotation: DQuat::IDENTITY };
-        Ok(DeviceState {
-            linear_velocity_m_per_s: self.hand.velocity(),
-            gripper_rad: Some(self.target().gripper_rad),
-            device_time_ns: (self.time_s() * 1e9).round() as u64,
-            ..DeviceState::at_rest(pose)
-        })
+        Ok(self.measurement.as_ref().map_or_else(|| self.truth(), Measurement::reading))
     }
 
     fn command(&mut self, wrench: &Wrench) -> Result<(), DeviceError> {
-        let force_n = if self.enabled { wrench.force_n } else { DVec3::ZERO };
+        let felt = if self.enabled { *wrench } else { Wrench::ZERO };
         let (script, start_s) = (&self.script, self.time_s());
-        self.hand.advance(force_n, &LIMITS.workspace, |since_s| script.at(start_s + since_s));
+        self.hand.advance(felt.force_n, &LIMITS.workspace, |since_s| script.at(start_s + since_s));
+        self.wrist.advance(felt.torque_n_m);
         self.commands += 1;
+        let truth = self.measurement.is_some().then(|| self.truth());
+        if let (Some(measurement), Some(truth)) = (&mut self.measurement, truth) {
+            measurement.measure(self.commands, truth);
+        }
         Ok(())
     }
 
@@ -118,10 +156,14 @@ mod tests {
     use super::*;
 
     fn device() -> SimulatedDevice {
+        flawed_device(Flaws::default())
+    }
+
+    fn flawed_device(flaws: Flaws) -> SimulatedDevice {
         let site = |x| Site { point: DVec3::new(x, 0.0, 0.0), normal: DVec3::Z, slide: vec![] };
         let script = press_slide_grasp_pull(&[site(-0.02), site(0.02)], &Motion::default()).unwrap();
         let hand = HandSettings { mass_kg: 0.3, stiffness_n_per_m: 500.0, damping_n_s_per_m: 20.0 };
-        let mut device = SimulatedDevice::open(Settings { hand, script, period_s: 1e-3 }).unwrap();
+        let mut device = SimulatedDevice::open(Settings { hand, script, period_s: 1e-3, flaws }).unwrap();
         device.enable().unwrap();
         device
     }
@@ -166,5 +208,49 @@ mod tests {
     fn nothing_moves_without_a_command() {
         let mut device = device();
         assert_eq!(device.read().unwrap(), device.read().unwrap());
+    }
+
+    #[test]
+    fn motors_that_are_off_leave_the_hand_to_itself() {
+        let (mut pushed, mut left) = (device(), device());
+        pushed.disable().unwrap();
+        let push = Wrench { force_n: DVec3::splat(5.0), torque_n_m: DVec3::splat(0.1), gripper_force_n: 1.0 };
+        for _ in 0..500 {
+            pushed.command(&push).unwrap();
+            left.command(&Wrench::ZERO).unwrap();
+            assert_eq!(pushed.read(), left.read());
+        }
+        pushed.enable().unwrap();
+        pushed.command(&push).unwrap();
+        left.command(&Wrench::ZERO).unwrap();
+        assert_ne!(pushed.read(), left.read());
+    }
+
+    #[test]
+    fn a_torque_turns_the_handle_and_moves_it_not() {
+        let (mut turned, mut left) = (device(), device());
+        let torque = Wrench { torque_n_m: DVec3::new(0.1, 0.0, 0.0), ..Wrench::ZERO };
+        for _ in 0..1000 {
+            turned.command(&torque).unwrap();
+            left.command(&Wrench::ZERO).unwrap();
+        }
+        let (turned, left) = (turned.read().unwrap(), left.read().unwrap());
+        assert_eq!(turned.pose.translation, left.pose.translation);
+        assert!((turned.pose.rotation.to_scaled_axis() - DVec3::X * 0.1).length() < 1e-6);
+        assert_eq!(left.pose.rotation, glam::DQuat::IDENTITY);
+    }
+
+    #[test]
+    fn flaws_change_what_is_read_and_not_what_happens() {
+        let all = Flaws { noise_m: 1e-4, quantisation_m: 1e-5, dropout: 0.2, latency_s: 0.003 };
+        let (mut flawed, mut ideal) = (flawed_device(all), device());
+        for tick in 0..2000 {
+            let push = Wrench::of_force(DVec3::Z * f64::from(tick % 7));
+            flawed.command(&push).unwrap();
+            ideal.command(&push).unwrap();
+            assert_eq!(flawed.truth(), ideal.read().unwrap());
+            assert_eq!(flawed.read(), flawed.read(), "reading twice is the same");
+        }
+        assert_ne!(flawed.read(), ideal.read());
     }
 }

@@ -46,9 +46,9 @@ const MOST_REPORTS: usize = 16;
 pub struct Settings {
     /// Serial number, or path as `/dev/hidraw3` since most have no number; empty: the only one.
     pub serial: String,
-    /// Speed at full deflection along an axis, m/s, > 0.
+    /// Speed at full deflection along an axis, m/s, >= 0.
     pub linear_speed_m_per_s: f64,
-    /// Speed at full deflection about an axis, rad/s, > 0.
+    /// Speed at full deflection about an axis, rad/s, >= 0.
     pub angular_speed_rad_per_s: f64,
     /// The raw number that is full deflection, > 0.
     pub full_scale: f64,
@@ -74,13 +74,15 @@ impl Settings {
             Err(DeviceError::Setting { name, value: value.to_string(), accepted: accepted.to_owned() })
         };
         for (name, value, accepted) in [
-            ("spacemouse.linear_speed", self.linear_speed_m_per_s, "a finite number > 0 [m/s]"),
-            ("spacemouse.angular_speed", self.angular_speed_rad_per_s, "a finite number > 0 [rad/s]"),
-            ("spacemouse.full_scale", self.full_scale, "a finite number > 0"),
+            ("spacemouse.linear_speed", self.linear_speed_m_per_s, "a finite number >= 0 [m/s]"),
+            ("spacemouse.angular_speed", self.angular_speed_rad_per_s, "a finite number >= 0 [rad/s]"),
         ] {
-            if !(value.is_finite() && value > 0.0) {
+            if !(value.is_finite() && value >= 0.0) {
                 return refused(name, value, accepted);
             }
+        }
+        if !(self.full_scale.is_finite() && self.full_scale > 0.0) {
+            return refused("spacemouse.full_scale", self.full_scale, "a finite number > 0");
         }
         if !(0.0..1.0).contains(&self.deadband) {
             return refused("spacemouse.deadband", self.deadband, "0 <= and < 1");
@@ -276,7 +278,7 @@ mod tests {
     fn settings_that_are_no_rate_are_refused_by_their_parameter() {
         let base = Settings::default;
         for (settings, name) in [
-            (Settings { linear_speed_m_per_s: 0.0, ..base() }, "spacemouse.linear_speed"),
+            (Settings { linear_speed_m_per_s: -0.1, ..base() }, "spacemouse.linear_speed"),
             (Settings { angular_speed_rad_per_s: f64::NAN, ..base() }, "spacemouse.angular_speed"),
             (Settings { full_scale: f64::INFINITY, ..base() }, "spacemouse.full_scale"),
             (Settings { deadband: 1.0, ..base() }, "spacemouse.deadband"),

@@ -91,5 +91,11 @@ fn simulated_hand(scene: &Scene, log: &Log) -> Result<devices::simulated::Settin
         },
         script,
         period_s: 1.0 / scene.device.rate_hz,
+        flaws: simulated::Flaws {
+            noise_m: settings.noise_m,
+            quantisation_m: settings.quantisation_m,
+            dropout: settings.dropout,
+            latency_s: settings.latency_s,
+        },
     })
 }

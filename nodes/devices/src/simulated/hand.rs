@@ -97,6 +97,11 @@ impl Hand {
         self.velocity
     }
 
+    /// How a period is divided: steps, and the time of one, s.
+    pub(super) fn steps(&self) -> (u32, f64) {
+        (self.steps, self.step_s)
+    }
+
     /// One period under a constant force; `target_at` gives the target at a time since the period began, s. RT safe.
     pub fn advance(&mut self, force_n: DVec3, workspace: &Workspace, target_at: impl Fn(f64) -> Target) {
         let HandSettings { stiffness_n_per_m, damping_n_s_per_m, .. } = self.settings;
@@ -114,22 +119,27 @@ impl Hand {
 
     /// The mechanical stops: the handle does not leave the workspace and loses its speed outward.
     fn stop_at_the_edge(&mut self, workspace: &Workspace) {
-        let (centre, half_height) = (workspace.centre, 0.5 * workspace.height_m);
-        let above = self.position.z - centre.z;
-        if above.abs() > half_height {
-            let side = above.signum();
-            self.position.z = centre.z + side * half_height;
+        let mut at = self.position - workspace.centre;
+        let half_height = 0.5 * workspace.height_m;
+        let mut is_out = false;
+        if at.z.abs() > half_height {
+            is_out = true;
+            let side = at.z.signum();
+            at.z = side * half_height;
             self.velocity.z = side * (side * self.velocity.z).min(0.0);
         }
-        let across = self.position.truncate() - centre.truncate();
+        let across = at.truncate();
         let distance = across.length();
         if distance > workspace.radius_m {
+            is_out = true;
             let outward = across / distance;
-            let at_edge = centre.truncate() + outward * workspace.radius_m;
+            at = (outward * workspace.radius_m).extend(at.z);
             let outward_speed = self.velocity.truncate().dot(outward).max(0.0);
             let remaining = self.velocity.truncate() - outward * outward_speed;
-            self.position = at_edge.extend(self.position.z);
             self.velocity = remaining.extend(self.velocity.z);
+        }
+        if is_out {
+            self.position = workspace.centre + at;
         }
     }
 }
@@ -138,7 +148,7 @@ impl Hand {
 ///
 /// With `s = damping/2` and `d = s^2 - stiffness` it is `C I + S (A + s I)`, where `C = e^(-s t) cosh(sqrt(d) t)` and
 /// `S = e^(-s t) sinh(sqrt(d) t)/sqrt(d)`; the exponents are taken together, so nothing overflows.
-fn transition(stiffness: f64, damping: f64, t: f64) -> [[f64; 2]; 2] {
+pub(super) fn transition(stiffness: f64, damping: f64, t: f64) -> [[f64; 2]; 2] {
     let s = 0.5 * damping;
     let d = s * s - stiffness;
     let (c, sh) = if d.abs() * t * t < 1e-12 {

@@ -82,8 +82,12 @@ fn press(cycle_s: f64) -> Script {
 impl Wall {
     /// `seconds` of pressing.
     pub(crate) fn run(&self, seconds: f64) -> Vec<Record> {
-        let settings =
-            simulated::Settings { hand: self.hand, script: press(self.cycle_s), period_s: self.period_s };
+        let settings = simulated::Settings {
+            hand: self.hand,
+            script: press(self.cycle_s),
+            period_s: self.period_s,
+            flaws: simulated::Flaws::default(),
+        };
         let mut device = SimulatedDevice::open(settings).unwrap();
         device.enable().unwrap();
         let limits = device.description().limits;

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow, ensure};
 use clap::Parser;
-use devices::simulated::{HandSettings, Motion, Settings, Site, press_slide_grasp_pull};
+use devices::simulated::{Flaws, HandSettings, Motion, Settings, Site, press_slide_grasp_pull};
 use devices::{
     Backend, ForceOrigin, ForceSource, LawCommand, MotorLoop, MotorSettings, SafetySettings, Sample,
     Scheduling, monotonic_ns, samples, sleep_until,
@@ -220,7 +220,7 @@ fn hand(period_s: f64) -> Result<Settings> {
     };
     let script = press_slide_grasp_pull(&[site(-0.02), site(0.02)], &Motion::default())?;
     let hand = HandSettings { mass_kg: 0.3, stiffness_n_per_m: 500.0, damping_n_s_per_m: 20.0 };
-    Ok(Settings { hand, script, period_s })
+    Ok(Settings { hand, script, period_s, flaws: Flaws::default() })
 }
 
 fn floor(stamp_ns: i64, chains: &Arc<ContactLaw>) -> LawCommand {
