@@ -32,28 +32,42 @@ pub enum TopicState {
 type Row = (&'static str, &'static str, &'static str, &'static str);
 
 /// One of each for every device.
-const DEVICE: [Row; 9] = [
+const DEVICE: [Row; 22] = [
     ("measured_cp", "geometry_msgs/PoseStamped", "haptic_device", "deformation, visualization"),
     ("measured_cv", "geometry_msgs/TwistStamped", "haptic_device", ""),
     ("measured_cf", "geometry_msgs/WrenchStamped", "haptic_device", ""),
+    ("spatial/measured_cf", "geometry_msgs/WrenchStamped", "haptic_device", ""),
+    ("body/measured_cf", "geometry_msgs/WrenchStamped", "haptic_device", ""),
+    ("measured_js", "sensor_msgs/JointState", "haptic_device", ""),
     ("gripper/measured_js", "sensor_msgs/JointState", "haptic_device", "deformation"),
+    ("operating_state", "crtk_msgs/OperatingState", "haptic_device", ""),
+    ("state_command", "crtk_msgs/StringStamped", "anyone", "haptic_device"),
+    ("emergency_stop", "std_msgs/Bool", "anyone", "haptic_device"),
+    ("hold", "std_msgs/Empty", "anyone", "haptic_device"),
+    ("free", "std_msgs/Empty", "anyone", "haptic_device"),
+    ("use_gravity_compensation", "std_msgs/Bool", "anyone", "haptic_device"),
+    ("body/set_cf_orientation_absolute", "std_msgs/Bool", "anyone", "haptic_device"),
     ("grasp", "std_msgs/Bool", "anyone", "deformation"),
     ("clutch", "sensor_msgs/Joy", "haptic_device", "deformation"),
     ("servo_cf", "geometry_msgs/WrenchStamped", "deformation", "haptic_device, visualization"),
+    ("spatial/servo_cf", "geometry_msgs/WrenchStamped", "anyone", "haptic_device"),
+    ("body/servo_cf", "geometry_msgs/WrenchStamped", "anyone", "haptic_device"),
+    ("gripper/servo_jf", "sensor_msgs/JointState", "anyone", "haptic_device"),
     ("contact_law", "rhombus_haptics_msgs/ContactLaw", "deformation", "haptic_device"),
     ("contact_state", "rhombus_haptics_msgs/ContactState", "deformation", "visualization"),
 ];
 
-/// One for the session.
-const SESSION: [Row; 9] = [
+/// One for the session; `~` is the node that publishes.
+const SESSION: [Row; 10] = [
     ("surface_displacement", "rhombus_haptics_msgs/SurfaceDisplacement", "deformation", "visualization"),
     ("body_mesh", "shape_msgs/Mesh", "deformation", "visualization"),
     ("markers", "visualization_msgs/MarkerArray", "visualization", ""),
+    ("~/transition_event", "lifecycle_msgs/TransitionEvent", "haptic_device", ""),
     ("/diagnostics", "diagnostic_msgs/DiagnosticArray", "every node", ""),
     ("/rosout", "rcl_interfaces/Log", "every node", ""),
     ("/parameter_events", "rcl_interfaces/ParameterEvent", "every node", ""),
     ("/clock", "rosgraph_msgs/Clock", "anyone", "every node"),
-    ("/tf", "tf2_msgs/TFMessage", "visualization", "deformation"),
+    ("/tf", "tf2_msgs/TFMessage", "haptic_device, visualization", "deformation"),
     ("/tf_static", "tf2_msgs/TFMessage", "visualization", "deformation"),
 ];
 
@@ -71,14 +85,21 @@ pub(super) fn planned(scene: &Scene) -> Vec<PlannedTopic> {
     devices
         .chain(session)
         .map(|(name, message, from, to)| {
-            let state = state(scene, name.rsplit('/').next().unwrap_or_default());
+            let state = state(scene, &name);
             PlannedTopic { name, message, from, to, state }
         })
         .collect()
 }
 
 fn state(scene: &Scene, topic: &str) -> TopicState {
-    match topic {
+    let is_simulated = scene.device.backend == "simulated";
+    if topic.ends_with("gripper/servo_jf") && is_simulated {
+        return TopicState::Absent("the gripper of the simulated device has no motor");
+    }
+    match topic.rsplit('/').next().unwrap_or_default() {
+        "use_gravity_compensation" if is_simulated => {
+            TopicState::Absent("the simulated device has no weight")
+        }
         "surface_displacement" if scene.surface.rate_hz <= 0.0 => TopicState::Absent("surface.rate is 0"),
         "markers" if !scene.has_markers() => TopicState::Silent("visualization.rate is 0"),
         "clutch" if scene.session.clutch_button.is_none() => TopicState::Absent("clutch.button is \"\""),
