@@ -33,13 +33,16 @@ const SETTLE: Duration = Duration::from_millis(300);
 /// Between two lines about readers that are missing.
 const REMINDER: Duration = Duration::from_secs(5);
 
-/// Runs the driver until the process is asked to end.
-pub(crate) fn run(kit: &mut NodeKit) -> Result<()> {
+/// Runs the driver until the process is asked to end. `around` may put something around the device that was opened.
+pub(crate) fn run(
+    kit: &mut NodeKit,
+    around: impl FnOnce(Box<dyn Device>) -> Box<dyn Device>,
+) -> Result<()> {
     let scene = Scene::from_parameters(kit.parameters().clone())?;
     let clutch_button = clutch_button(&scene)?;
     let settings = motor_settings(&scene)?;
     let backend = backend(&scene, kit.log())?;
-    let mut device = backend.open()?;
+    let mut device = around(backend.open()?);
     let can_carry_itself = can_carry_itself(&mut *device, settings.gravity_compensation)?;
 
     let pose_is_due = EveryNth::of_rates(settings.rate_hz, scene.device.pose_rate_hz);
@@ -65,8 +68,8 @@ pub(crate) fn run(kit: &mut NodeKit) -> Result<()> {
     kit.log().info(&format!("motor loop: {}", motor.scheduling()));
     let Shared { description, frames, .. } = &shared;
     kit.ready(&format!(
-        "{} device {} at {} Hz in frame {}",
-        description.backend, description.model, scene.device.rate_hz, frames.base
+        "{} ({}) at {} Hz in frame {}",
+        description.model, description.backend, scene.device.rate_hz, frames.base
     ));
     let max_force_n = scene.device.max_force_n;
     Driver { motor, publisher, shared, desk, forces, report, max_force_n }.run(kit)
