@@ -27,6 +27,7 @@ compile_error!(
 );
 
 mod backend;
+pub mod check;
 mod device;
 mod emergency;
 mod error;
