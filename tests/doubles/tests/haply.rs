@@ -258,6 +258,7 @@ fn a_driver_that_is_killed_or_stopped_loses_its_force_at_the_tick() {
         let record = double.record();
         let [.., (command_ns, event, force), (tick_ns, ..)] = record.as_slice() else { panic!() };
         assert_eq!((event.as_str(), *force), ("command", DVec3::Y));
+        println!("{name}: without a force {} us after the last command", (tick_ns - command_ns) / 1000);
         // The tick is 20 ms; what is beyond is the double's own clock of half a millisecond and a busy machine.
         assert!((20 * MS..60 * MS).contains(&(tick_ns - command_ns)), "{} ms", (tick_ns - command_ns) / MS);
         assert!(*command_ns < signalled_ns + 20 * MS);

@@ -2,9 +2,13 @@
 #![cfg(feature = "spacemouse")]
 #![expect(clippy::unwrap_used, reason = "tests, their helpers too")]
 
+use assert_no_alloc::{AllocDisabler, assert_no_alloc};
 use devices::spacemouse::{self, Settings, SpaceMouse, WORKSPACE};
 use devices::{Device, DeviceError, DeviceState};
 use glam::{DQuat, DVec3};
+
+#[global_allocator]
+static ALLOCATOR: AllocDisabler = AllocDisabler;
 
 const SPACE_NAVIGATOR: &str =
     include_str!("../../../nodes/devices/src/spacemouse/reports/space_navigator.txt");
@@ -83,6 +87,13 @@ fn how_often_it_is_read_does_not_change_where_it_goes() {
     let coarse = (0..=350u64).map(|step| seldom.read_at(step * 4 * MS).unwrap()).last().unwrap();
     assert!((fine.pose.translation - coarse.pose.translation).length() < 1e-9);
     assert!(fine.pose.rotation.angle_between(coarse.pose.rotation) < 1e-6);
+}
+
+#[test]
+fn reading_allocates_nothing() {
+    let mut device = device(SPACE_NAVIGATOR);
+    let turned = assert_no_alloc(|| (0..1400).filter_map(|ms| device.read_at(ms * MS).ok()).last());
+    assert!(turned.unwrap().pose.rotation.angle_between(DQuat::IDENTITY) > 0.3);
 }
 
 #[test]

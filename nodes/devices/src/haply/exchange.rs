@@ -16,7 +16,7 @@ use super::reading::Reader;
 use super::request::{self, Spelling};
 use super::slot::CommandSlot;
 use crate::latest::Sender;
-use crate::{DeviceError, DeviceState, monotonic_ns};
+use crate::{DeviceError, DeviceState, Scheduling, monotonic_ns};
 
 /// A command that is older moves nothing any more.
 pub(super) const COMMAND_AGE_NS: u64 = 20_000_000;
@@ -30,6 +30,9 @@ const ANSWER: Duration = Duration::from_millis(100);
 const GOODBYE: Duration = Duration::from_millis(20);
 /// The longest time between two requests.
 const PAUSE: Duration = Duration::from_millis(1);
+
+/// Of `SCHED_FIFO`, where it is permitted: before all ordinary threads, behind the motor loop.
+const PRIORITY: i32 = 1;
 
 /// What the motor loop and the thread share.
 #[derive(Debug, Default)]
@@ -53,6 +56,8 @@ pub(super) struct Exchange {
 impl Exchange {
     /// Talks until it is stopped or the device is lost. Gives back the sender, which must outlive the motor loop's end.
     pub(super) fn run(mut self, shared: &Shared, mut readings: Sender<DeviceState>) -> Sender<DeviceState> {
+        // What is refused here is refused to the motor loop too, which says so.
+        let _ = Scheduling::request(PRIORITY, None);
         let mut request = String::new();
         let mut good_ns = monotonic_ns();
         let mut held = DVec3::ZERO;

@@ -1,6 +1,7 @@
 //! Where reports come from: the device, or a recording.
 
 use std::ffi::{CStr, CString};
+use std::io;
 
 use hidapi::{HidApi, HidDevice};
 
@@ -99,22 +100,23 @@ pub(super) fn open(api: &HidApi, listed: &Listed) -> Result<Hidraw, DeviceError>
     let path = listed.path.to_string_lossy();
     let what = format!("{} at {path}", listed.model.name);
     // hidapi tells its errors as text only, so the operating system is asked first.
-    if let Err(error) = std::fs::OpenOptions::new().read(true).write(true).open(&*path) {
-        return Err(match error.kind() {
-            std::io::ErrorKind::PermissionDenied => {
-                DeviceError::Permission { what, remedy: RULES.to_owned() }
-            }
-            std::io::ErrorKind::NotFound => DeviceError::NotFound {
-                device: BACKEND,
-                looked: format!("{what} is listed, but its file is not there"),
-                remedy: "in a container pass /dev/hidraw* on; otherwise connect the device again".to_owned(),
-            },
-            _ if error.raw_os_error() == Some(libc::EBUSY) => DeviceError::Busy { what },
-            _ => unusable(&what, &error.to_string()),
-        });
-    }
+    let file = std::fs::OpenOptions::new().read(true).write(true).open(&*path);
+    file.map_err(|error| refused(what.clone(), &error))?;
     let device = api.open_path(&listed.path).map_err(|error| unusable(&what, &error.to_string()))?;
     Ok(Hidraw(device))
+}
+
+fn refused(what: String, error: &io::Error) -> DeviceError {
+    match error.kind() {
+        io::ErrorKind::PermissionDenied => DeviceError::Permission { what, remedy: RULES.to_owned() },
+        io::ErrorKind::ResourceBusy => DeviceError::Busy { what },
+        io::ErrorKind::NotFound => DeviceError::NotFound {
+            device: BACKEND,
+            looked: format!("{what} is listed, but its file is not there"),
+            remedy: "in a container pass /dev/hidraw* on; otherwise connect the device again".to_owned(),
+        },
+        _ => unusable(&what, &error.to_string()),
+    }
 }
 
 fn unusable(what: &str, error: &str) -> DeviceError {
@@ -210,6 +212,30 @@ mod tests {
         );
         let text = choose(vec![listed("A7", "/dev/hidraw4")], 5, "B8").unwrap_err().to_string();
         assert!(text.contains("B8") && text.contains("A7"), "{text}");
+    }
+
+    #[test]
+    fn what_the_operating_system_refuses_has_its_own_remedy() {
+        let said = |errno| {
+            refused("SpaceNavigator at /dev/hidraw3".to_owned(), &io::Error::from_raw_os_error(errno))
+        };
+        assert!(matches!(said(libc::EACCES), DeviceError::Permission { .. }));
+        let text = said(libc::EACCES).to_string();
+        assert!(
+            text.contains("/dev/hidraw3") && text.contains("config/udev/70-rhombus-haptics.rules"),
+            "{text}"
+        );
+        assert!(matches!(said(libc::EBUSY), DeviceError::Busy { .. }));
+        assert!(matches!(said(libc::ENOENT), DeviceError::NotFound { .. }));
+        assert!(said(libc::EIO).to_string().contains("connect it again"));
+    }
+
+    #[test]
+    fn a_file_that_is_no_hid_device_is_not_opened() {
+        let hid = hid().unwrap();
+        for path in ["/dev/null", "/dev/no such file"] {
+            assert!(open(&hid, &listed("", path)).err().unwrap().to_string().contains(path));
+        }
     }
 
     #[test]
