@@ -11,7 +11,7 @@ from pathlib import Path
 import rclpy
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseStamped, WrenchStamped
+from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rhombus_haptics_msgs.msg import ContactLaw, ContactState
 from sensor_msgs.msg import JointState, Joy
@@ -42,6 +42,20 @@ SCENE = {
     "chains.normal_stiffness": [500.0],
     "chains.tangential_stiffness": [100.0],
     "chains.tangential_growth": [10.0],
+}
+# A hand that hardly moves, heavy and stiff, on a device that Python can follow: what the motors get is what is commanded, but
+# for the ramp of the first half second.
+CALM = {
+    **SCENE,
+    "device.rate": 200.0,
+    "simulated.mass": 2.0,
+    "simulated.stiffness": 4000.0,
+    "simulated.damping": 60.0,
+    "simulated.depth": 0.0005,
+    "simulated.pull": 0.0005,
+    "simulated.slide": 0.0005,
+    "simulated.period": 60.0,
+    "safety.engage_ramp": 0.5,
 }
 PROBE_RADIUS_M = 0.005
 BLOCK_TOP_M = 0.05
@@ -230,8 +244,62 @@ class Device:
             time.sleep(0.005)
 
 
+class Handle:
+    """What a device publishes, as messages that were heard so far."""
+
+    def __init__(self, peer, prefix=""):
+        self.poses = peer.heard(PoseStamped, f"{prefix}measured_cp", reliable(1000))
+        self.twists = peer.heard(TwistStamped, f"{prefix}measured_cv", reliable(1000))
+        self.forces = peer.heard(WrenchStamped, f"{prefix}measured_cf", reliable(1000))
+        self.grippers = peer.heard(JointState, f"{prefix}gripper/measured_js", reliable(1000))
+
+
+class Client:
+    """A client that commands wrenches on one topic, 200 a second."""
+
+    def __init__(self, peer, topic="servo_cf"):
+        self.peer, self.topic = peer, topic
+
+    def send(self, force, frame="", torque=(0.0, 0.0, 0.0), stamp_ns=None):
+        message = WrenchStamped()
+        message.header.frame_id = frame
+        if stamp_ns is None:
+            message.header.stamp = self.peer.node.get_clock().now().to_msg()
+        else:
+            message.header.stamp = Time(sec=stamp_ns // 1_000_000_000, nanosec=stamp_ns % 1_000_000_000)
+        f, t = message.wrench.force, message.wrench.torque
+        f.x, f.y, f.z = (float(x) for x in force)
+        t.x, t.y, t.z = (float(x) for x in torque)
+        self.peer.publish(message, self.topic, reliable(1000))
+
+    def until(self, force, condition, what, frame="", timeout_s=TIMEOUT_S, **options):
+        """Command the same force until a condition holds."""
+
+        def tried():
+            self.send(force, frame, **options)
+            self.peer.spin(0.005)
+            return condition()
+
+        self.peer.wait_for(tried, what, timeout_s)
+
+    def stream(self, force, seconds, frame="", **options):
+        """Command the same force for a while."""
+        end = time.monotonic() + seconds
+        self.until(force, lambda: time.monotonic() >= end, "the end of the stream", frame, **options)
+
+    def engage(self, handle):
+        """Command nothing until the driver lets forces begin, then a small force until its ramp is over."""
+        self.stream((0.0, 0.0, 0.0), 0.3)
+        small = 0.15
+        self.until((small, 0.0, 0.0), lambda: size(handle.forces[-1]) > 0.999 * small, "the end of the ramp")
+
+
 def stamp_of(message):
     return message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
+
+
+def size(message):
+    return math.hypot(*force_of(message))
 
 
 def vector(v):
