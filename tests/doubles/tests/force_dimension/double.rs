@@ -33,6 +33,8 @@ impl Double {
             .arg(folder.path())
             .arg("--record")
             .arg(folder.path().join("record.csv"))
+            // Ends with this process, however that ends.
+            .arg("--control")
             .args(options)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())

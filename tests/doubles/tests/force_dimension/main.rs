@@ -1,5 +1,11 @@
 //! The Force Dimension backend against its double: the SDK's functions in a shared library, the devices in a process of
 //! their own that records what reached their motors.
+#![expect(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "helpers of tests, which may panic"
+)]
 
 mod alive;
 mod double;

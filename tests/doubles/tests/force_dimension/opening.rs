@@ -48,7 +48,8 @@ fn every_family_says_its_name_its_limits_and_what_it_has() {
 
 #[test]
 fn a_wrist_gives_the_orientation_that_its_frame_says() {
-    let double = Double::start(&["--device", "sigma.7-right", "--from", "0.01,0.02,-0.03"]);
+    let double =
+        Double::start(&["--device", "sigma.7-right", "--from", "0.01,0.02,-0.03", "--to", "0.01,0.02,-0.03"]);
     let pose = double.open().read().unwrap().pose;
     assert!(pose.translation.abs_diff_eq(DVec3::new(0.01, 0.02, -0.03), 1e-6), "{pose:?}");
     assert!((pose.rotation * DVec3::X).abs_diff_eq(DVec3::Y, 1e-12), "{pose:?}");

@@ -80,7 +80,7 @@ fn ends_force(signal: &str) {
         assert!(took >= WATCHDOG, "{took:?}: earlier than the controller's own time");
         worst = worst.max(took);
     }
-    println!("{signal}: force gone {worst:?} after the last command, worst of 5");
+    eprintln!("{signal}: force gone {worst:?} after the last command, worst of 5");
     // The watchdog's time, and what the double's own process may be late with noticing it.
     assert!(worst <= Duration::from_millis(50), "{worst:?}");
 }

@@ -17,6 +17,7 @@ pub(crate) struct Arguments {
     pub(crate) sdk: PathBuf,
     pub(crate) version: [i32; 4],
     pub(crate) only_dhd: bool,
+    pub(crate) control: bool,
     pub(crate) devices: Vec<Device>,
 }
 
@@ -116,12 +117,14 @@ impl Device {
 impl Arguments {
     /// Reads the options in order.
     pub(crate) fn parse(mut options: impl Iterator<Item = String>) -> Result<Arguments, String> {
-        let (mut sdk, mut version, mut only_dhd) = (None, rhombus_sdk_double::VERSION, false);
+        let (mut sdk, mut version) = (None, rhombus_sdk_double::VERSION);
+        let (mut only_dhd, mut control) = (false, false);
         let (mut devices, mut named) = (Vec::new(), false);
         let mut device = Device::new(10_000);
         while let Some(option) = options.next() {
             match option.as_str() {
                 "--only-dhd" => only_dhd = true,
+                "--control" => control = true,
                 "--unhomed" => device.homed = false,
                 "--homing-fails" => device.homing_fails = true,
                 _ => {
@@ -147,7 +150,7 @@ impl Arguments {
             }
         }
         devices.push(device);
-        Ok(Arguments { sdk: sdk.ok_or("--sdk FOLDER is needed")?, version, only_dhd, devices })
+        Ok(Arguments { sdk: sdk.ok_or("--sdk FOLDER is needed")?, version, only_dhd, control, devices })
     }
 }
 

@@ -2,12 +2,13 @@
 //! speed limit.
 //!
 //! ```text
-//! force_dimension_double --sdk FOLDER [--sdk-version 3.17.5.0] [--only-dhd] [DEVICE OPTIONS] [--device NAME[:SERIAL] [DEVICE OPTIONS]]...
+//! force_dimension_double --sdk FOLDER [--sdk-version 3.17.5.0] [--only-dhd] [--control] [DEVICE OPTIONS]
+//!                        [--device NAME[:SERIAL] [DEVICE OPTIONS]]...
 //! ```
 //! It lays out the SDK in FOLDER as the maker's archive does, so that `force_dimension.sdk: FOLDER` or `FORCEDIM_SDK=FOLDER`
 //! is all a driver needs, and prints `ready: ...`. Device options belong to the device before them, or to the first: see
-//! `arguments.rs`. Lines on standard input change a running device: see `control.rs`. SIGUSR1 unplugs all devices,
-//! SIGUSR2 plugs them in again, SIGTERM ends.
+//! `arguments.rs`. With `--control`, lines on standard input change a running device (see `control.rs`), and their end is
+//! the double's. SIGUSR1 unplugs all devices, SIGUSR2 plugs them in again, SIGTERM ends.
 #![expect(clippy::print_stdout, reason = "the ready line and the answers to control lines")]
 
 mod answers;
@@ -20,6 +21,7 @@ use std::error::Error;
 use std::io;
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -48,14 +50,20 @@ fn main() -> Result<(), Box<dyn Error>> {
             let _ = start("program", move || serve(number as u64, stream, &bus));
         }
     })?;
-    let controlled = bus.clone();
-    start("control", move || control::follow(io::stdin().lines(), &controlled))?;
+    let left_alone = Arc::new(AtomicBool::new(false));
+    if arguments.control {
+        let (controlled, left_alone) = (bus.clone(), left_alone.clone());
+        start("control", move || {
+            control::follow(io::stdin().lines(), &controlled);
+            left_alone.store(true, SeqCst);
+        })?;
+    }
     println!("ready: {} devices, SDK in {}", arguments.devices.len(), arguments.sdk.display());
 
     let step = Duration::from_nanos((STEP_S * 1e9) as u64);
     let mut done_ns = monotonic_ns();
     let mut unplugged = false;
-    while !signals.ended() {
+    while !signals.ended() && !left_alone.load(SeqCst) {
         std::thread::sleep(step);
         let now_ns = monotonic_ns();
         let mut bus = lock(&bus);
