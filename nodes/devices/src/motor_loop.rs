@@ -105,8 +105,7 @@ impl MotorLoop {
         let (servo_sender, servo) = latest();
         let (asker, askee) = requests();
         let shared = Arc::new(Shared::new(settings.safety.max_force_n, monotonic_ns()));
-        let MotorSettings { fifo_priority: priority, cpu, enable_at_start, gravity_compensation, .. } =
-            settings;
+        let MotorSettings { fifo_priority: priority, cpu, enable_at_start, .. } = settings;
         let motor = MotorThread::new(device, Box::new(open), settings, laws, servo, askee, shared.clone());
         let (report, reported) = crossbeam::channel::bounded(1);
         let thread = std::thread::Builder::new().name("motor_loop".to_owned()).spawn(move || {
@@ -124,8 +123,6 @@ impl MotorLoop {
             description,
             thread: Some(thread),
         };
-        // Devices that carry no weight refuse, which is as good.
-        motor.request(Request::GravityCompensation(gravity_compensation));
         if enable_at_start {
             motor.request(Request::State(StateCommand::Enable));
         }

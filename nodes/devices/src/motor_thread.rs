@@ -53,7 +53,7 @@ impl MotorThread {
             device: Some(device),
             open,
             period_ns: (1e9 / settings.rate_hz).round() as u64,
-            operation: Operation::new(requests, shared.clone(), settings.safety.ros_timeout_s),
+            operation: Operation::new(requests, shared.clone(), &settings),
             commands: Commands { laws, servo },
             settings,
             shared,
@@ -77,7 +77,9 @@ pub(crate) fn run(mut motor: MotorThread, mut samples: SampleSender) -> Result<(
     block_signals();
     let running = Running::begin();
     let mut clock = StampClock::new(monotonic_ns(), system_ns());
-    while let Some(device) = wait_for_device(&mut motor, &running) {
+    while let Some(mut device) = wait_for_device(&mut motor, &running) {
+        // A device that carries no weight says so, which is as good.
+        let _ = device.set_gravity_compensation(motor.operation.gravity_compensation());
         let mut ticker =
             Ticker::new(device, &motor.settings, &mut motor.operation, &mut motor.commands, &motor.shared);
         match run_periods(&mut ticker, motor.period_ns, &mut clock, &mut samples, &motor.shared, &running) {

@@ -7,7 +7,10 @@ use crate::requests::Askee;
 use crate::safety::{FaultCause, FaultLatch};
 use crate::shared::Shared;
 use crate::source::SourceMode;
-use crate::{Answer, Device, DeviceError, DeviceState, MotorStatus, OperatingState, Request, StateCommand};
+use crate::{
+    Answer, Device, DeviceError, DeviceState, MotorSettings, MotorStatus, OperatingState, Request,
+    StateCommand,
+};
 
 /// Periods in a row with readings that are not finite before that is a fault.
 const UNUSABLE_READINGS: u32 = 10;
@@ -19,6 +22,7 @@ pub(crate) struct Operation {
     requests: Askee,
     shared: Arc<Shared>,
     owner_timeout_ns: u64,
+    gravity_compensation: bool,
     operating: OperatingState,
     mode: SourceMode,
     faults: FaultLatch,
@@ -35,11 +39,12 @@ pub(crate) struct Operation {
 }
 
 impl Operation {
-    pub(crate) fn new(requests: Askee, shared: Arc<Shared>, owner_timeout_s: f64) -> Operation {
+    pub(crate) fn new(requests: Askee, shared: Arc<Shared>, settings: &MotorSettings) -> Operation {
         Operation {
             requests,
             shared,
-            owner_timeout_ns: (owner_timeout_s * 1e9) as u64,
+            owner_timeout_ns: (settings.safety.ros_timeout_s * 1e9) as u64,
+            gravity_compensation: settings.gravity_compensation,
             operating: OperatingState::Disabled,
             mode: SourceMode::Follow,
             faults: FaultLatch::default(),
@@ -63,6 +68,11 @@ impl Operation {
     /// What the motors do with the sources.
     pub(crate) fn mode(&self) -> SourceMode {
         self.mode
+    }
+
+    /// Whether a device that is opened shall carry its own weight.
+    pub(crate) fn gravity_compensation(&self) -> bool {
+        self.gravity_compensation
     }
 
     /// The first thing that went wrong since the last command that cleared it.
@@ -105,10 +115,13 @@ impl Operation {
             Request::Free => Ok(self.change_mode(SourceMode::Free)),
             Request::Hold => Ok(self.change_mode(SourceMode::Hold)),
             Request::Follow => Ok(self.change_mode(SourceMode::Follow)),
-            Request::GravityCompensation(on) => match device {
-                Some(device) => device.set_gravity_compensation(on).map(|()| true),
-                None => Ok(false),
-            },
+            Request::GravityCompensation(on) => {
+                self.gravity_compensation = on;
+                match device {
+                    Some(device) => device.set_gravity_compensation(on).map(|()| true),
+                    None => Ok(false),
+                }
+            }
             Request::EmergencyStop(pressed) => {
                 self.emergency_stop = pressed;
                 if pressed {
@@ -279,7 +292,7 @@ mod tests {
     use super::StateCommand::{Disable, Enable, Home, Pause, Resume};
     use super::*;
     use crate::requests::{Asker, requests};
-    use crate::{Description, DeviceLimits, MotorsOff, Workspace, Wrench};
+    use crate::{Description, DeviceLimits, ForceSource, MotorsOff, SafetySettings, Workspace, Wrench};
     use glam::DVec3;
     use rhombus_chain::Pose;
 
@@ -345,10 +358,22 @@ mod tests {
             status_names: &[],
         };
         Bench {
-            operation: Operation::new(askee, shared.clone(), 1.0),
+            operation: Operation::new(askee, shared.clone(), &settings()),
             motors: Motors { description, on: false, homes: true },
             shared,
             _asker: asker,
+        }
+    }
+
+    fn settings() -> MotorSettings {
+        MotorSettings {
+            rate_hz: 1000.0,
+            fifo_priority: 1,
+            cpu: None,
+            source: ForceSource::ContactLaw,
+            safety: SafetySettings::default().checked(&[]).unwrap(),
+            enable_at_start: false,
+            gravity_compensation: true,
         }
     }
 
