@@ -56,7 +56,7 @@ impl Rule {
             ask.state = moving(hand.at, velocity);
         };
         match self {
-            NotFinite => ask.wrench.force_n.y = if tick % 2 == 0 { f64::NAN } else { f64::INFINITY },
+            NotFinite => ask.wrench.force_n.y = if tick.is_multiple_of(2) { f64::NAN } else { f64::INFINITY },
             // Closed by one period without permission; the force stays large, so it stays closed.
             Gate if tick == 0 => ask.permits = false,
             Silence => {
@@ -65,8 +65,8 @@ impl Rule {
             // Away with the force, on and on.
             Passivity => move_at(DVec3::X * 0.15),
             // To and fro: as much put in as taken out.
-            Power => move_at(DVec3::X * if tick / 20 % 2 == 0 { -1.2 } else { 1.2 }),
-            Velocity => move_at(DVec3::Y * if tick / 50 % 2 == 0 { 2.0 } else { -2.0 }),
+            Power => move_at(DVec3::X * if (tick / 20).is_multiple_of(2) { -1.2 } else { 1.2 }),
+            Velocity => move_at(DVec3::Y * if (tick / 50).is_multiple_of(2) { 2.0 } else { -2.0 }),
             Force => ask.wrench.force_n *= 1e200,
             Torque => ask.wrench.torque_n_m = DVec3::new(0.0, 3.0, 4.0),
             Gripper => ask.wrench.gripper_force_n = -1e6,
@@ -75,7 +75,7 @@ impl Rule {
             Blind => ask.blind = true,
             // Just when the force is to change its sign.
             Late => {
-                ask.after_ns *= if tick % 7 == 0 { 9 } else { 1 };
+                ask.after_ns *= if tick.is_multiple_of(7) { 9 } else { 1 };
                 ask.wrench.force_n *= if tick / 7 % 2 == 1 { -1.0 } else { 1.0 };
             }
             Gate | Reversal | Lowered | Workspace => {}
