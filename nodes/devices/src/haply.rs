@@ -3,15 +3,15 @@
 //! # The service
 //! A WebSocket with JSON (<https://docs.haply.co/inverseSDK/service/realtime/websocket-protocol>). The first message lists
 //! all devices; after that each message of the client gets exactly one answer with the state of all of them. A force holds
-//! for one tick of the service: who stops sending lets the device idle. A thread of its own talks ([`exchange`]), at once
+//! for one tick of the service: who stops sending lets the device idle. A thread of its own talks, at once
 //! when there is a command and otherwise every millisecond; a command older than 20 ms it sends no more.
 //!
 //! A force has the key `vector` in service 3.5 and `values` before. Which one is decided when the device is opened: by what
 //! the inventory has (`current_cursor_force`, `preset`: 3.5), then by a force of zero, to which the device must leave idle.
 //!
 //! # Frames
-//! The device frame has x forward, y left, z up, its origin on the mounting plate, as the service has it: see [`frame`].
-//! Without a grip the handle's orientation is the identity; with one it is the grip's.
+//! The service's frame is x right, y forward, z up from the mounting plate; the device frame is the same turned by a quarter
+//! about z: x forward, y left, z up. Without a grip the handle's orientation is the identity; with one it is the grip's.
 //!
 //! # Limits
 //! The SDK's pages state no force and no workspace. 2 N is the limit that Isaac Lab sets for this device

@@ -30,6 +30,8 @@ impl Double {
             .args(options)
             .arg("--record")
             .arg(directory.path().join("record.csv"))
+            .args(["--attached", "yes"])
+            .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
             .unwrap();
@@ -64,6 +66,16 @@ impl Double {
                 (words[0].parse().unwrap(), words[1].to_owned(), DVec3::from(force))
             })
             .collect()
+    }
+}
+
+/// A process that ends with the test, however the test ends.
+struct Ended(Child);
+
+impl Drop for Ended {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
     }
 }
 
@@ -245,14 +257,15 @@ fn driver() {
 fn a_driver_that_is_killed_or_stopped_loses_its_force_at_the_tick() {
     for name in ["KILL", "STOP"] {
         let double = Double::start(&[]);
-        let mut driver = Command::new(std::env::current_exe().unwrap())
+        let driver = Command::new(std::env::current_exe().unwrap())
             .args(["driver", "--exact", "--ignored"])
             .env("HAPLY_URL", &double.url)
             .stdout(Stdio::null())
             .spawn()
+            .map(Ended)
             .unwrap();
         eventually("pressing", || double.record().last().is_some_and(|line| line.2 == DVec3::Y));
-        signal(&driver, name);
+        signal(&driver.0, name);
         let signalled_ns = monotonic_ns();
         eventually("the tick", || double.record().last().unwrap().1 == "watchdog");
         let record = double.record();
@@ -262,8 +275,6 @@ fn a_driver_that_is_killed_or_stopped_loses_its_force_at_the_tick() {
         // The tick is 20 ms; what is beyond is the double's own clock of half a millisecond and a busy machine.
         assert!((20 * MS..60 * MS).contains(&(tick_ns - command_ns)), "{} ms", (tick_ns - command_ns) / MS);
         assert!(*command_ns < signalled_ns + 20 * MS);
-        let _ = driver.kill();
-        driver.wait().unwrap();
     }
 }
 

@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -18,8 +19,8 @@ use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
 const USAGE: &str = "haply_double [--port N] [--devices ID,ID] [--grips ID,ID] [--service 3.5|3.4] [--tick-ms N] \
-                     [--record FILE] [--unplug device|service] [--fault NAME [--fault-after MESSAGES]] [hand options]; \
-                     SIGUSR1 unplugs, SIGUSR2 plugs in again; only the first device has a hand and is recorded";
+                     [--record FILE] [--unplug device|service] [--fault NAME [--fault-after MESSAGES]] [--attached yes|no] [hand options]; \
+                     SIGUSR1 unplugs, SIGUSR2 plugs in again; attached, it ends with its standard input; only the first device has a hand and is recorded";
 const STEP_NS: u64 = 500_000;
 const WORKSPACE: Workspace = Workspace { centre: DVec3::ZERO, radius_m: 0.4, height_m: 0.8 };
 
@@ -38,6 +39,7 @@ struct Options {
     unplugs_service: bool,
     fault: String,
     fault_after: usize,
+    attached: bool,
     hand: HandArguments,
 }
 
@@ -53,6 +55,7 @@ impl Options {
             unplugs_service: false,
             fault: String::new(),
             fault_after: 0,
+            attached: false,
             hand: HandArguments::default(),
         };
         while let Some(option) = arguments.next() {
@@ -67,6 +70,7 @@ impl Options {
                 "--tick-ms" => options.tick = Duration::from_millis(number()?),
                 "--record" => options.record = Some(PathBuf::from(&value)),
                 "--unplug" => options.unplugs_service = value == "service",
+                "--attached" => options.attached = value == "yes",
                 "--fault" => options.fault.clone_from(&value),
                 "--fault-after" => {
                     options.fault_after = usize::try_from(number()?).map_err(|error| error.to_string())?;
@@ -285,6 +289,7 @@ fn run() -> Result<(), Box<dyn std::error::Error>> {
     let begin_ns = monotonic_ns();
     let mut ready = String::new();
     write!(ready, "ready: ws://127.0.0.1:{}", listener.local_addr()?.port())?;
+    let attached = options.attached;
     let service =
         Arc::new(Service { options, signals, handle: Mutex::new(Handle { hand, motors }), begin_ns });
     let theirs = service.clone();
@@ -299,11 +304,20 @@ fn run() -> Result<(), Box<dyn std::error::Error>> {
             let _ = std::thread::Builder::new().name("session".to_owned()).spawn(served);
         }
     })?;
+    let left_alone = Arc::new(AtomicBool::new(false));
+    if attached {
+        let left_alone = left_alone.clone();
+        std::thread::Builder::new().name("attached".to_owned()).spawn(move || {
+            // An error is an end too.
+            let _ = io::copy(&mut io::stdin(), &mut io::sink());
+            left_alone.store(true, SeqCst);
+        })?;
+    }
     let mut out = io::stdout();
     writeln!(out, "{ready}")?;
     out.flush()?;
     let mut next_ns = begin_ns;
-    while !signals.ended() {
+    while !signals.ended() && !left_alone.load(SeqCst) {
         next_ns += STEP_NS;
         {
             let mut handle = service.handle();
