@@ -112,6 +112,7 @@ pub struct ForceDimensionDevice {
     gripper_sign: f64,
     health: Health,
     enabled: bool,
+    period_s: f64,
     /// When the last reading was, and the last one with a new position, ns.
     read_ns: u64,
     position_ns: u64,
@@ -164,6 +165,7 @@ impl ForceDimensionDevice {
             gripper_sign: if sdk.is_left_handed(id) { -1.0 } else { 1.0 },
             health: Health::default(),
             enabled: false,
+            period_s,
             read_ns: 0,
             position_ns: 0,
             velocity_ns: 0,
@@ -171,7 +173,7 @@ impl ForceDimensionDevice {
         };
         // Whatever ran before may have left them on.
         device.disable()?;
-        device.description.watchdog = device.set_watchdog(period_s)?;
+        device.description.watchdog = device.set_watchdog()?;
         // Its first answer decides: what is garbage now must not come to a motor loop.
         match device.read() {
             Ok(_) => Ok(device),
@@ -181,7 +183,7 @@ impl ForceDimensionDevice {
     }
 
     /// Asks for [`WATCHDOG`] and believes only what the controller then says. None: it has no watchdog.
-    fn set_watchdog(&self, period_s: f64) -> Result<Option<Duration>, DeviceError> {
+    fn set_watchdog(&self) -> Result<Option<Duration>, DeviceError> {
         let Opened { sdk, id, serial } = self.opened;
         let units = (WATCHDOG.as_micros() as u64 / UNIT_US) as u8;
         let now = match sdk.set_watchdog(id, units) {
@@ -193,7 +195,7 @@ impl ForceDimensionDevice {
         };
         let watchdog = Duration::from_micros(u64::from(now) * UNIT_US);
         // Off, never set, or one that trips between two commands of the loop.
-        if now > units || watchdog.as_secs_f64() < 2.0 * period_s {
+        if now > units || watchdog.as_secs_f64() < 2.0 * self.period_s {
             let what = format!("its watchdog is at {watchdog:?} after {WATCHDOG:?} was set");
             return Err(refused(serial, what));
         }
@@ -319,9 +321,14 @@ impl Device for ForceDimensionDevice {
         let homed = sdk.home(id).map_err(|failure| {
             refused(serial, format!("homing failed: {} ({})", failure.text(), sdk.last_words()))
         });
-        let motors = if was_enabled { self.enable() } else { self.disable() };
         self.health.forget();
-        homed.and(motors)
+        // What the SDK's regulation has made of the watchdog is not documented, so it is set again.
+        let watchdog = self.set_watchdog().and_then(|now| match now == self.description.watchdog {
+            true => Ok(()),
+            false => Err(refused(serial, format!("its watchdog is {now:?} after homing"))),
+        });
+        let motors = if was_enabled && watchdog.is_ok() { self.enable() } else { self.disable() };
+        homed.and(watchdog).and(motors)
     }
 
     fn set_gravity_compensation(&mut self, on: bool) -> Result<(), DeviceError> {

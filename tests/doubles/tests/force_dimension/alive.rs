@@ -117,3 +117,14 @@ fn a_pause_of_the_loop_is_told_as_the_watchdogs_and_enabling_ends_it() {
     device.enable().unwrap();
     feed_until(&mut device, PUSH, |state| state.motors_off.is_none() && state.status[5] == 1);
 }
+
+#[test]
+fn homing_does_not_cost_the_watchdog() {
+    let double = Double::start(&["--unhomed"]);
+    let mut device = double.open();
+    device.enable().unwrap();
+    device.home().unwrap();
+    device.command(&PUSH).unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(80));
+    assert_eq!(double.last_switch(), "watchdog");
+}

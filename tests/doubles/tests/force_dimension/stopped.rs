@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use devices::force_dimension::{Settings, WATCHDOG, open};
+use devices::force_dimension::{Settings, WATCHDOG, list, open};
 use devices::{Device, Wrench};
 use glam::DVec3;
 
@@ -12,15 +12,17 @@ use crate::double::{Double, Line};
 
 const PUSH: Wrench = Wrench::of_force(DVec3::new(0.0, 0.0, 7.0));
 
-/// Set by the tests below: the SDK that the driver process finds.
+/// Set by the tests below: the SDK that the driver process finds, and the device that it takes.
 const SDK: &str = "FORCEDIM_SDK";
+const SERIAL: &str = "RHOMBUS_TEST_SERIAL";
 
 /// No test: the process that the tests below stop. It pushes with 1 kHz, and enables again what the watchdog took while
 /// this machine was busy.
 #[test]
 #[ignore = "the driver process of the tests in this file"]
 fn driver_process() {
-    let settings = Settings { serial: String::new(), sdk: PathBuf::new(), period_s: 1e-3 };
+    let serial = std::env::var(SERIAL).unwrap_or_default();
+    let settings = Settings { serial, sdk: PathBuf::new(), period_s: 1e-3 };
     let mut device = open(settings).unwrap();
     device.enable().unwrap();
     let end = Instant::now() + Duration::from_secs(20);
@@ -34,14 +36,19 @@ fn driver_process() {
     }
 }
 
-/// A driver process that has pushed for a while.
-fn pushing(double: &Double) -> Child {
-    let driver = Command::new(std::env::current_exe().unwrap())
+fn driver(double: &Double, serial: &str) -> Child {
+    Command::new(std::env::current_exe().unwrap())
         .args(["--exact", "--ignored", "stopped::driver_process"])
         .env(SDK, double.sdk())
+        .env(SERIAL, serial)
         .stdout(Stdio::null())
         .spawn()
-        .unwrap();
+        .unwrap()
+}
+
+/// A driver process that has pushed for a while.
+fn pushing(double: &Double) -> Child {
+    let driver = driver(double, "");
     let end = Instant::now() + Duration::from_secs(10);
     while double.record().iter().filter(|line| line.wrench == PUSH).count() < 50 {
         assert!(Instant::now() < end, "the driver does not push: {:?}", double.record().last());
@@ -105,4 +112,26 @@ fn the_device_of_a_killed_driver_opens_again() {
     let mut device = open(double.settings("501")).unwrap();
     assert_eq!(device.read().unwrap().motors_off, None);
     assert_eq!(double.last().wrench, Wrench::ZERO, "opening has switched off what was left");
+}
+
+#[test]
+fn two_drivers_that_start_together_get_their_devices() {
+    // Each looks at both devices for a moment to find its own.
+    for _ in 0..5 {
+        let double = Double::start(&["--device", "omega.3:501", "--device", "omega.3:502"]);
+        let mut drivers = ["501", "502"].map(|serial| driver(&double, serial));
+        let end = Instant::now() + Duration::from_secs(10);
+        let in_use =
+            || list(&double.settings("")).unwrap().iter().filter(|found| found.serial.is_empty()).count();
+        while in_use() < 2 {
+            assert!(Instant::now() < end, "a driver has not got its device");
+            std::thread::sleep(Duration::from_millis(200));
+        }
+        std::thread::sleep(Duration::from_millis(100));
+        for driver in &mut drivers {
+            assert_eq!(driver.try_wait().unwrap(), None, "still driving");
+            driver.kill().unwrap();
+            driver.wait().unwrap();
+        }
+    }
 }

@@ -117,7 +117,8 @@ fn one(hardware: &mut Hardware, request: &Request) -> io::Result<Reply> {
     })
 }
 
-/// Regulates the handle to its reference for a while. As with the SDK, the motors are on afterwards.
+/// Regulates the handle to its reference for a while. As with the SDK, the motors are on afterwards. The watchdog is not:
+/// a driver must not rely on the SDK to put back what its own regulation does without.
 fn home(shared: &Shared, program: u64, device: i32) -> Reply {
     let began = with(&mut lock(shared), program, device, |hardware| {
         hardware.enable_force(monotonic_ns(), true)?;
@@ -141,6 +142,7 @@ fn home(shared: &Shared, program: u64, device: i32) -> Reply {
         return Reply::failure(ERROR);
     }
     with(&mut lock(shared), program, device, |hardware| {
+        hardware.set_watchdog(0);
         hardware.device.homed = true;
         Ok(Reply::of(0, &[]))
     })
