@@ -11,7 +11,7 @@ from pathlib import Path
 import rclpy
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
+from geometry_msgs.msg import PoseStamped, WrenchStamped
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rhombus_haptics_msgs.msg import ContactLaw, ContactState
 from sensor_msgs.msg import JointState, Joy
@@ -43,11 +43,13 @@ SCENE = {
     "chains.tangential_stiffness": [100.0],
     "chains.tangential_growth": [10.0],
 }
-# A hand that hardly moves, heavy and stiff, on a device that Python can follow: what the motors get is what is commanded, but
-# for the ramp of the first half second.
+# A hand that moves little, heavy and stiff, on a device that Python can follow: what the motors get is what is commanded, but
+# for the ramp of the first half second. The passivity controller is off: a constant force gives a moving hand energy, which
+# is just what that controller is there to keep from it.
 CALM = {
     **SCENE,
     "device.rate": 200.0,
+    "device.pose_rate": 100.0,
     "simulated.mass": 2.0,
     "simulated.stiffness": 4000.0,
     "simulated.damping": 60.0,
@@ -56,6 +58,8 @@ CALM = {
     "simulated.slide": 0.0005,
     "simulated.period": 60.0,
     "safety.engage_ramp": 0.5,
+    "safety.passivity": False,
+    "unsafe.parameters": ["safety.passivity"],
 }
 PROBE_RADIUS_M = 0.005
 BLOCK_TOP_M = 0.05
@@ -245,13 +249,11 @@ class Device:
 
 
 class Handle:
-    """What a device publishes, as messages that were heard so far."""
+    """Where a device's handle is and what its motors give, as messages that were heard so far."""
 
     def __init__(self, peer, prefix=""):
         self.poses = peer.heard(PoseStamped, f"{prefix}measured_cp", reliable(1000))
-        self.twists = peer.heard(TwistStamped, f"{prefix}measured_cv", reliable(1000))
         self.forces = peer.heard(WrenchStamped, f"{prefix}measured_cf", reliable(1000))
-        self.grippers = peer.heard(JointState, f"{prefix}gripper/measured_js", reliable(1000))
 
 
 class Client:

@@ -52,8 +52,17 @@ def peer():
     peer.close()
 
 
+class EveryTopic(Handle):
+    """All that it measures."""
+
+    def __init__(self, peer):
+        super().__init__(peer)
+        self.twists = peer.heard(TwistStamped, "measured_cv", reliable(1000))
+        self.grippers = peer.heard(JointState, "gripper/measured_js", reliable(1000))
+
+
 def test_a_device_alone_measures_in_order_and_gives_no_force(start, peer):
-    handle = Handle(peer)
+    handle = EveryTopic(peer)
     # With somebody to wait for, the first pose that is heard is the first there is.
     driver = start(values={**SLOW, "device.wait_for_readers": 1}).wait_ready()
     peer.wait_for(lambda: len(handle.poses) > 300, "300 poses")
@@ -85,7 +94,7 @@ def test_a_device_alone_measures_in_order_and_gives_no_force(start, peer):
 
 
 def test_the_velocity_is_the_derivative_of_the_position(start, peer):
-    handle = Handle(peer)
+    handle = EveryTopic(peer)
     start().wait_ready()
     peer.wait_for(lambda: len(handle.poses) > 400 and len(handle.twists) > 400, "two seconds of motion")
     twists = {stamp_of(twist): vector(twist.twist.linear) for twist in handle.twists}
@@ -188,7 +197,7 @@ def test_other_clients_force_reaches_the_motors_and_ends_when_they_fall_silent(s
     silent_since = peer.node.get_clock().now().nanoseconds
     peer.wait_for(lambda: last() == (0.0, 0.0, 0.0), "no force after the last command")
     zero = next(stamp_of(f) for f in handle.forces if stamp_of(f) > silent_since and size(f) == 0.0)
-    assert zero - silent_since <= 60 * MS, "50 ms and two periods"
+    assert zero - silent_since <= 70 * MS, "50 ms and two of the poses that tell"
     client.until((0.0, -40.0, 30.0), lambda: size(handle.forces[-1]) == approx(3.0, rel=1e-9), "the largest force")
     assert last() == approx((0.0, -2.4, 1.8), abs=1e-6), "in the direction commanded"
     for bad, frame in [(math.nan, ""), (math.inf, ""), (2.0, "elsewhere"), (2.0, "device_tip")]:
