@@ -3,8 +3,8 @@
 //! # The service
 //! A WebSocket with JSON (<https://docs.haply.co/inverseSDK/service/realtime/websocket-protocol>). The first message lists
 //! all devices; after that each message of the client gets exactly one answer with the state of all of them. A force holds
-//! for one tick of the service: who stops sending lets the device idle. A thread of its own talks, at once
-//! when there is a command and otherwise every millisecond; a command older than 20 ms it sends no more.
+//! for one tick of the service: who stops sending lets the device idle. A thread of its own talks, at once when there is a
+//! command and otherwise every millisecond; a command older than 20 ms it sends no more.
 //!
 //! A force has the key `vector` in service 3.5 and `values` before. Which one is decided when the device is opened: by what
 //! the inventory has (`current_cursor_force`, `preset`: 3.5), then by a force of zero, to which the device must leave idle.
@@ -16,7 +16,8 @@
 //! # Limits
 //! The SDK's pages state no force and no workspace. 2 N is the limit that Isaac Lab sets for this device
 //! (`HaplyDeviceCfg.limit_force`, isaac-sim/IsaacLab); whoever has the data sheet of his device raises `haply.max_force`.
-//! The workspace is a cylinder that the arm's links keep the handle in anyway.
+//! The workspace is assumed: a cylinder around the base that is meant to be larger than the arm's reach, so that the guard
+//! at its edge takes no force away where the handle can be.
 
 mod choose;
 mod exchange;
@@ -52,10 +53,10 @@ const WHICH_PORT: &str = "haply.url must be the service's simulation channel, ws
 pub const DEFAULT_URL: &str = "ws://localhost:10001";
 /// The largest force without another word, N.
 pub const DEFAULT_MAX_FORCE_N: f64 = 2.0;
-/// The largest force that can be set, N: no device of this family pushes harder.
+/// The largest force that can be set, N; more is taken for a slip of the pen.
 pub const LARGEST_FORCE_N: f64 = 20.0;
 
-/// The handle cannot leave this: around the base, 0.4 m to each side, 0.4 m up and down.
+/// Around the base, 0.4 m to each side, 0.4 m up and down.
 const WORKSPACE: Workspace = Workspace { centre: DVec3::ZERO, radius_m: 0.4, height_m: 0.8 };
 
 /// Which device, and where.
