@@ -47,9 +47,7 @@ pub(super) fn choose(tried: Vec<Tried>, serial: &str) -> Result<SerialDevice<Por
         (_, 1, true) => return Err(errors.remove(0).1),
         _ => return Err(none(serial, &others, &errors)),
     }
-    let (path, device) = meant.remove(0);
-    let _ = path;
-    Ok(device)
+    Ok(meant.remove(0).1)
 }
 
 /// What answers, for people.

@@ -48,12 +48,14 @@ pub(super) fn greet<L: Line>(line: &mut L, place: &str) -> Result<Greeted, Devic
     let mut known: Option<(Hello, Description, States)> = None;
     let mut until_ns = line.now_ns() + ns(ANSWER_WITHIN);
     let mut ask_ns = line.now_ns();
+    let mut request = Request::default();
     let mut chunk = [0; 1024];
     while line.now_ns() < until_ns {
         if known.is_none() && line.now_ns() >= ask_ns {
             ask_ns = line.now_ns() + ns(ASK_EVERY);
-            ask(line)?;
+            request.ask();
         }
+        request.push_out(line)?;
         let Some(count) = arrived(line.read(&mut chunk))? else {
             line.wait(LOOK_EVERY);
             continue;
@@ -89,8 +91,8 @@ pub(super) fn greet<L: Line>(line: &mut L, place: &str) -> Result<Greeted, Devic
                 _ => {}
             }
         }
-        if let Some((hello, description, states)) = known.take_if(|(_, _, states)| states.newest().is_some())
-        {
+        let is_known = |known: &mut (_, _, States)| known.2.newest().is_some() && request.is_sent();
+        if let Some((hello, description, states)) = known.take_if(is_known) {
             return Ok(Greeted { description, states, receiver, hello });
         }
     }
@@ -106,14 +108,34 @@ pub(super) fn greet<L: Line>(line: &mut L, place: &str) -> Result<Greeted, Devic
     })
 }
 
-/// One request, behind a zero that ends whatever half frame the device may have.
-fn ask<L: Line>(line: &mut L) -> Result<(), DeviceError> {
-    let frame = HelloRequest { version: PROTOCOL_VERSION }.frame();
-    let mut request = [0; 8];
-    let length = 1 + frame.bytes().len();
-    request[1..length].copy_from_slice(frame.bytes());
-    // A line that takes nothing, or a part, is asked again.
-    arrived(line.write(&request[..length])).map(|_| ())
+/// A hello request on its way out, behind a zero that ends whatever half frame the device may have.
+#[derive(Default)]
+struct Request {
+    bytes: [u8; 8],
+    length: usize,
+    sent: usize,
+}
+
+impl Request {
+    fn is_sent(&self) -> bool {
+        self.sent == self.length
+    }
+
+    /// Another one, unless one is still on its way.
+    fn ask(&mut self) {
+        if self.is_sent() {
+            let frame = HelloRequest { version: PROTOCOL_VERSION }.frame();
+            (self.sent, self.length) = (0, 1 + frame.bytes().len());
+            self.bytes[1..self.length].copy_from_slice(frame.bytes());
+        }
+    }
+
+    fn push_out<L: Line>(&mut self, line: &mut L) -> Result<(), DeviceError> {
+        if !self.is_sent() {
+            self.sent += arrived(line.write(&self.bytes[self.sent..self.length]))?.unwrap_or(0);
+        }
+        Ok(())
+    }
 }
 
 /// How many bytes were moved; none when there was nothing to move now.

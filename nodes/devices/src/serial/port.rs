@@ -151,3 +151,24 @@ fn no_port(path: &str, error: &str) -> DeviceError {
             .to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // Tests may run as a user whom nothing is forbidden, so the refusals of the system are made here.
+    #[test]
+    fn what_the_system_refuses_is_told_apart() {
+        let refused = |errno| not_opened("/dev/ttyACM0", &io::Error::from_raw_os_error(errno));
+        let forbidden = refused(libc::EACCES);
+        assert!(matches!(forbidden, DeviceError::Permission { .. }));
+        let text = forbidden.to_string();
+        assert!(
+            text.contains("/dev/ttyACM0") && text.contains("udev rules") && text.contains("dialout"),
+            "{text}"
+        );
+        assert_eq!(refused(libc::EBUSY), DeviceError::Busy { what: "/dev/ttyACM0".to_owned() });
+        assert!(matches!(refused(libc::ENOENT), DeviceError::NotFound { .. }));
+        assert!(matches!(refused(libc::EIO), DeviceError::Protocol { .. }));
+    }
+}

@@ -4,6 +4,7 @@
 
 mod client;
 mod double;
+mod fuzzed;
 mod opening;
 mod running;
 mod unplugged;
