@@ -44,7 +44,7 @@ pub struct ClosedLoop {
     pub pose_rate_hz: f64,
     /// From position to motors.
     pub transport: Transport,
-    /// Whether the passivity controller is on. It hides what is asked here, so it is off but for comparison.
+    /// Whether the passivity controller is on. The limit of the contact itself is that with it off.
     pub passivity: bool,
 }
 

@@ -2,7 +2,8 @@
 //! through topics, by the topics' delay and by the damping of hand and handle.
 //!
 //! Everything is computed, nothing is timed: a run gives the same numbers on every machine. The passivity controller is
-//! off, because it would hide the limit; what it makes of the same contacts is in the same table, and dashed.
+//! off, so that the limit is the contact's own. With it on (dashed) the limit is much the same: it bounds the energy of a
+//! contact that swings, it does not calm it.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
