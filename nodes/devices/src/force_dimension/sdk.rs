@@ -12,8 +12,6 @@ use std::sync::Mutex;
 use libloading::Library;
 
 use super::failure::Failure;
-use super::search::{Candidate, Place, places};
-use crate::DeviceError;
 
 /// A device's number inside the SDK.
 pub(super) type Id = c_char;
@@ -24,10 +22,6 @@ const UNKNOWN_MAJOR: c_int = 4;
 
 /// More than the 17 numbers that `dhdGetStatus` writes today: a newer SDK may write more.
 const STATUS_ROOM: usize = 64;
-
-/// What to do about a missing or unusable library.
-const REMEDY: &str = "install the Force Dimension SDK 3.16 or newer (3.x) from forcedimension.com/software/sdk, then set \
-                      force_dimension.sdk or FORCEDIM_SDK to its folder";
 
 /// A table of functions, and how to find each in a library.
 macro_rules! functions {
@@ -123,50 +117,24 @@ pub(super) struct Reading {
 
 const UPRIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Libraries that this process has loaded.
-static LOADED: Mutex<Vec<&'static Sdk>> = Mutex::new(Vec::new());
-
-/// The first library in the order of [`places`].
-pub(super) fn load(sdk: &Path) -> Result<&'static Sdk, DeviceError> {
-    load_from(&places(sdk, |name| std::env::var_os(name)))
-}
-
-fn load_from(places: &[Place]) -> Result<&'static Sdk, DeviceError> {
-    let mut loaded = LOADED.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let mut looked = Vec::new();
-    for place in places {
-        let mut found = "not there".to_owned();
-        for Candidate { path, is_drd } in place.candidates() {
-            if let Some(&sdk) = loaded.iter().find(|sdk| sdk.path == path) {
-                return Ok(sdk);
-            }
-            // SAFETY: loading runs the library's initialisers; it is the file that the user or the system names as SDK.
-            match unsafe { Library::new(&path) } {
-                Ok(library) => {
-                    let sdk: &'static Sdk = Box::leak(Box::new(Sdk::of(library, path, is_drd)?));
-                    loaded.push(sdk);
-                    return Ok(sdk);
-                }
-                // The loader's words for a name that it does not find say no more than that.
-                Err(_) if *place == Place::Loader => {}
-                Err(error) => found = format!("{} cannot be loaded: {error}", path.display()),
-            }
-        }
-        looked.push(format!("{place}: {found}"));
-    }
-    Err(DeviceError::Library {
-        what: format!("no Force Dimension SDK (libdrd.so.3 or libdhd.so.3); looked in {}", looked.join("; ")),
-        remedy: REMEDY.to_owned(),
-    })
+/// Why a file is not the SDK.
+pub(super) enum Unusable {
+    /// The loader's words for why it is no library.
+    NotLoaded(String),
+    /// What is wrong with the library.
+    Refused(String),
 }
 
 impl Sdk {
-    fn of(library: Library, path: PathBuf, is_drd: bool) -> Result<Sdk, DeviceError> {
-        let unusable = |what: String| DeviceError::Library { what, remedy: REMEDY.to_owned() };
-        // Never unloaded, not even when refused: its threads may run.
+    /// Loads a file, or for the system's loader a name. It stays loaded, even when refused: its threads may run.
+    pub(super) fn of(path: PathBuf, is_drd: bool) -> Result<Sdk, Unusable> {
+        // SAFETY: loading runs the library's initialisers; it is the file that the user or the system names as SDK.
+        let library =
+            unsafe { Library::new(&path) }.map_err(|error| Unusable::NotLoaded(error.to_string()))?;
         let library: &'static Library = Box::leak(Box::new(library));
-        let lacks =
-            |symbol| unusable(format!("{} has no function {symbol}: not a usable SDK", path.display()));
+        let lacks = |symbol| {
+            Unusable::Refused(format!("{} has no function {symbol}: not a usable SDK", path.display()))
+        };
         let haptic = Haptic::of(library).map_err(lacks)?;
         let mut version = [0; 4];
         let [major, minor, release, revision] = &mut version;
@@ -174,7 +142,7 @@ impl Sdk {
         unsafe { (haptic.get_sdk_version)(major, minor, release, revision) };
         let [major, minor, ..] = version;
         if [major, minor] < OLDEST || major >= UNKNOWN_MAJOR {
-            return Err(unusable(format!(
+            return Err(Unusable::Refused(format!(
                 "{} is SDK {}; accepted is 3.16 to 3.x, the versions whose calls and status fields are known to be \
                  those that this driver uses",
                 path.display(),
@@ -183,6 +151,11 @@ impl Sdk {
         }
         let robotic = if is_drd { Some(Robotic::of(library).map_err(lacks)?) } else { None };
         Ok(Sdk { haptic, robotic, path, version, open: Mutex::new(Vec::new()) })
+    }
+
+    /// The file or name that it was loaded from.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// File and version, for people.
@@ -423,37 +396,4 @@ const TIMEGUARD: c_int = 1;
 
 fn dotted(version: [c_int; 4]) -> String {
     version.map(|part| part.to_string()).join(".")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn folder(path: &Path) -> Vec<Place> {
-        vec![Place::Folder { path: path.to_path_buf(), why: "force_dimension.sdk" }]
-    }
-
-    fn refusal(places: &[Place]) -> String {
-        load_from(places).err().expect("no usable library").to_string()
-    }
-
-    #[test]
-    fn every_place_looked_at_is_named_and_how_to_get_the_sdk() {
-        let empty = tempfile::tempdir().unwrap();
-        let mut places = folder(empty.path());
-        places.push(Place::Folder { path: PathBuf::from("/nowhere"), why: "FDSDK" });
-        let text = refusal(&places);
-        let here = format!("{} (from force_dimension.sdk): not there", empty.path().display());
-        for part in [here.as_str(), "/nowhere (from FDSDK): not there", "libdrd.so.3", "forcedimension.com"] {
-            assert!(text.contains(part), "{part} in {text}");
-        }
-    }
-
-    #[test]
-    fn a_file_that_is_no_library_says_what_the_loader_says() {
-        let folder_path = tempfile::tempdir().unwrap();
-        std::fs::write(folder_path.path().join("libdrd.so.3"), "text").unwrap();
-        let text = refusal(&folder(folder_path.path()));
-        assert!(text.contains("libdrd.so.3 cannot be loaded"), "{text}");
-    }
 }
