@@ -18,4 +18,13 @@ impl Assignments {
         let parameters = Parameters::from_file(file, Reader::Everything)?;
         Scene::from_parameters(parameters.with_assignments(&self.assignments)?)
     }
+
+    /// What the drivers read that have a section of their own in `file`, as changed: full names and scenes.
+    pub(crate) fn drivers(&self, file: &Path) -> Result<Vec<(String, Scene)>, SceneError> {
+        let read = |name: String| {
+            let parameters = Parameters::from_file(file, Reader::Node(&name))?;
+            Ok((name, Scene::from_parameters(parameters.with_assignments(&self.assignments)?)?))
+        };
+        Parameters::drivers_in_file(file)?.into_iter().map(read).collect()
+    }
 }

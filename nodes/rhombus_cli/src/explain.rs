@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
-use scene::{Plan, TopicState};
+use scene::{Node, Plan, Scene, TopicState};
 use serde::Serialize;
 
 use crate::assignments::Assignments;
@@ -31,6 +31,8 @@ struct Explanation {
     scene: PathBuf,
     built: Vec<Built>,
     left_out: Vec<LeftOut>,
+    devices: Vec<Device>,
+    drivers: Vec<Driver>,
     topics: Vec<Topic>,
     threads: Vec<Threads>,
     warnings: Vec<String>,
@@ -49,6 +51,26 @@ struct Built {
 struct LeftOut {
     part: &'static str,
     why: String,
+}
+
+/// An entry of `devices`.
+#[derive(Serialize)]
+struct Device {
+    /// Sub-namespace; empty for the node's own namespace.
+    name: String,
+    backend: String,
+}
+
+/// A driver with a section of its own in the file.
+#[derive(Serialize)]
+struct Driver {
+    node: String,
+    backend: String,
+    serial: String,
+    rate_hz: f64,
+    max_force_n: f64,
+    /// Position of the device's base in the scene, m.
+    base_m: [f64; 3],
 }
 
 #[derive(Serialize)]
@@ -70,8 +92,9 @@ struct Threads {
 
 impl Explain {
     pub(crate) fn run(self) -> anyhow::Result<()> {
-        let plan = self.assignments.scene(&self.parameters)?.plan()?;
-        let explanation = Explanation::new(self.parameters, plan);
+        let scene = self.assignments.scene(&self.parameters)?;
+        let drivers = self.assignments.drivers(&self.parameters)?;
+        let explanation = Explanation::new(self.parameters, &scene, scene.plan()?, &drivers);
         for warning in &explanation.warnings {
             eprintln!("rhombus: warning: {warning}");
         }
@@ -83,16 +106,24 @@ impl Explain {
 }
 
 impl Explanation {
-    fn new(scene: PathBuf, plan: Plan) -> Explanation {
+    fn new(file: PathBuf, scene: &Scene, plan: Plan, drivers: &[(String, Scene)]) -> Explanation {
         let bytes = plan.bytes();
         Explanation {
-            scene,
+            scene: file,
             built: plan
                 .built
                 .into_iter()
                 .map(|p| Built { part: p.name, node: p.node.name(), what: p.what, bytes: p.bytes })
                 .collect(),
-            left_out: plan.left_out.into_iter().map(|l| LeftOut { part: l.name, why: l.why }).collect(),
+            left_out: plan
+                .left_out
+                .into_iter()
+                // What a driver's own section brings in is not left out.
+                .filter(|part| drivers.iter().all(|(_, scene)| scene.device.backend != part.name))
+                .map(|l| LeftOut { part: l.name, why: l.why })
+                .collect(),
+            devices: scene.session.devices.iter().map(|name| Device::new(name, scene, drivers)).collect(),
+            drivers: drivers.iter().map(|(node, scene)| Driver::new(node, scene)).collect(),
             topics: plan
                 .topics
                 .into_iter()
@@ -116,6 +147,30 @@ impl Explanation {
     }
 }
 
+impl Device {
+    /// With the driver's own section where there is one, in whatever namespace.
+    fn new(name: &str, scene: &Scene, drivers: &[(String, Scene)]) -> Device {
+        let end = format!("/{}/{}", name.trim_matches('/'), Node::HapticDevice.name());
+        let own = drivers.iter().find(|(node, _)| !name.is_empty() && node.ends_with(&end));
+        let scene = own.map_or(scene, |(_, scene)| scene);
+        Device { name: name.to_owned(), backend: scene.device.backend.clone() }
+    }
+}
+
+impl Driver {
+    fn new(node: &str, scene: &Scene) -> Driver {
+        let device = &scene.device;
+        Driver {
+            node: node.to_owned(),
+            backend: device.backend.clone(),
+            serial: device.serial.clone(),
+            rate_hz: device.rate_hz,
+            max_force_n: device.max_force_n,
+            base_m: device.scene_from_device.translation.to_array(),
+        }
+    }
+}
+
 impl std::fmt::Display for Explanation {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut text = String::new();
@@ -127,6 +182,14 @@ impl std::fmt::Display for Explanation {
         writeln!(text, "left out")?;
         for LeftOut { part, why } in &self.left_out {
             writeln!(text, "  {part:<15} {why}")?;
+        }
+        if !self.drivers.is_empty() {
+            writeln!(text, "drivers with a section of their own")?;
+        }
+        for Driver { node, backend, serial, rate_hz, max_force_n, base_m } in &self.drivers {
+            let which = if serial.is_empty() { String::new() } else { format!(" {serial}") };
+            let what = format!("{backend}{which} at {rate_hz} Hz, at most {max_force_n} N");
+            writeln!(text, "  {node:<15} {what}, base at {base_m:?} m")?;
         }
         writeln!(text, "topics")?;
         for Topic { name, message, from, to, state, why } in &self.topics {

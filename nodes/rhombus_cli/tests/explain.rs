@@ -143,6 +143,38 @@ fn help_and_version_are_no_errors_and_no_command_is_one() {
 }
 
 #[test]
+fn drivers_with_a_section_of_their_own_are_explained_each_as_it_reads_the_file() {
+    let drivers = "    devices: [left, right]
+/left/haptic_device:
+  ros__parameters: {device.scene_from_device: [-0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], device.max_force: 3.0}
+/right/haptic_device:
+  ros__parameters: {device.backend: serial, device.serial: \"R 7\"}
+";
+    let folder = Folder::new().with("a.yaml", &format!("{PAPER}{drivers}"));
+    let text = folder.success(&["explain", "a.yaml", "--set", "device.rate=500"]);
+    for line in [
+        "  /left/haptic_device simulated at 500 Hz, at most 3 N, base at [-0.2, 0.0, 0.0] m\n",
+        "  /right/haptic_device serial R 7 at 500 Hz, at most 20 N, base at [0.0, 0.0, 0.0] m\n",
+        "left/measured_cp",
+        "right/servo_cf",
+    ] {
+        assert!(text.contains(line), "{line} in\n{text}");
+    }
+    let explanation = folder.json(&["explain", "a.yaml", "--json"]);
+    let devices = serde_json::json!([
+        {"name": "left", "backend": "simulated"},
+        {"name": "right", "backend": "serial"},
+    ]);
+    assert_eq!(explanation["devices"], devices);
+    let found = &explanation["drivers"];
+    assert_eq!((&found[0]["node"], &found[0]["max_force_n"]), (&"/left/haptic_device".into(), &3.0.into()));
+    assert_eq!((&found[1]["backend"], &found[1]["serial"]), (&"serial".into(), &"R 7".into()));
+    let bad = Folder::new().with("a.yaml", &format!("{PAPER}{drivers}").replace("max_force", "max_forse"));
+    let message = bad.refusal(&["explain", "a.yaml"]);
+    assert!(message.contains("a.yaml:14: device.max_forse: unknown parameter; did you mean"), "{message}");
+}
+
+#[test]
 fn a_parameter_on_the_command_line_takes_the_place_of_the_files() {
     let folder = Folder::new().with("scene.yaml", PAPER);
     let text =

@@ -207,7 +207,7 @@ impl Scene {
         plan.build("backend", Node::HapticDevice, what, None);
         if let Some(Check::OneOf(backends)) = spec("device.backend").map(|spec| spec.check) {
             for other in backends.iter().filter(|name| **name != device.backend) {
-                plan.leave_out("backend", format!("{other}: device.backend is {:?}", device.backend));
+                plan.leave_out(other, format!("device.backend is {:?}", device.backend));
             }
         }
         match &self.session.clutch_button {
