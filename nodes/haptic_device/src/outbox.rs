@@ -16,8 +16,8 @@ use crate::decimation::{Every, EveryNth};
 use crate::shared::Shared;
 use crate::wrench_frame::{DeviceFrames, body_axes};
 
-/// Time between two gripper messages while the gripper moves little, ns.
-const GRIPPER_PERIOD_NS: u64 = 20_000_000;
+/// Time between two gripper messages while the gripper moves little, ns. Clients take 10 ms of silence for a loss.
+const GRIPPER_PERIOD_NS: u64 = 5_000_000;
 /// A gripper that has moved by this since its last message is published at once, rad.
 const GRIPPER_STEP_RAD: f64 = 0.01;
 /// Time between two transforms of the handle, ns.
