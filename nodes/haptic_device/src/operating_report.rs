@@ -8,7 +8,8 @@ pub(crate) struct OperatingReport {
     device: Vec<(&'static str, String)>,
     status_names: &'static [&'static str],
     unsafe_settings: Vec<String>,
-    superfluous: Vec<String>,
+    /// What is worth a warning at the start and no more.
+    remarks: Vec<String>,
 }
 
 impl OperatingReport {
@@ -30,13 +31,13 @@ impl OperatingReport {
             ],
             status_names: description.status_names,
             unsafe_settings: safety.unsafe_settings().to_vec(),
-            superfluous: safety.superfluous().to_vec(),
+            remarks: safety.superfluous().iter().cloned().chain(unwatched(description)).collect(),
         }
     }
 
     /// Says once what is set to less than safe.
     pub(crate) fn warn(&self, log: &Log) {
-        for text in self.unsafe_settings.iter().chain(&self.superfluous) {
+        for text in self.unsafe_settings.iter().chain(&self.remarks) {
             log.warn(text);
         }
     }
@@ -77,6 +78,17 @@ impl OperatingReport {
             .zip(sample.state.status)
             .fold(status, |status, (name, value)| status.with(format!("device_{name}"), value))
     }
+}
+
+/// A device that holds the last force of a driver that was killed. The simulated one is gone with the driver.
+fn unwatched(description: &Description) -> Option<String> {
+    let holds = description.limits.max_force_n.is_some() && description.watchdog.is_none();
+    (holds && description.backend != "simulated").then(|| {
+        format!(
+            "{} has no watchdog of its own: if this process is killed, the device keeps its last force; switch it off then",
+            description.model
+        )
+    })
 }
 
 fn source(origin: ForceOrigin) -> &'static str {
