@@ -135,3 +135,56 @@ impl Release {
         self.hand_per_s2 * (size / self.slew_per_s + self.period_s)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DQuat;
+    use rhombus_chain::Pose;
+
+    fn at(x: f64, velocity: DVec3) -> DeviceState {
+        DeviceState {
+            linear_velocity_m_per_s: velocity,
+            ..DeviceState::at_rest(Pose { translation: DVec3::X * x, rotation: DQuat::IDENTITY })
+        }
+    }
+
+    /// Whoever was given 0.1 J.
+    fn deficit() -> EnergyObserver {
+        let mut energy = EnergyObserver::default();
+        let held = Wrench::of_force(DVec3::X * 10.0);
+        energy.observe(&held, &Wrench::ZERO, &at(0.0, DVec3::ZERO), 1e-3);
+        energy.observe(&held, &Wrench::ZERO, &at(0.01, DVec3::ZERO), 1e-3);
+        energy
+    }
+
+    #[test]
+    fn damping_is_along_the_velocity_and_capped_in_coefficient_and_force() {
+        let controller = PassivityController::new(&SafetySettings::default(), 1e-3);
+        let along = DVec3::new(0.6, 0.0, -0.8);
+        for (speed, damping_n) in
+            [(0.0, 0.0), (1e-300, 2e-299), (0.01, 0.2), (0.1, 2.0), (0.2, 4.0), (1.5, 4.0)]
+        {
+            let mut hit = LimitsHit::NONE;
+            let got = controller.apply(Wrench::ZERO, &at(0.0, along * speed), &deficit(), 1.0, &mut hit);
+            assert!((got.force_n + along * damping_n).length() <= 1e-11 * damping_n, "{speed}: {got:?}");
+            let half = controller.apply(Wrench::ZERO, &at(0.0, along * speed), &deficit(), 0.5, &mut hit);
+            assert!((half.force_n - 0.5 * got.force_n).length() <= 1e-12);
+        }
+        // A slow loop holds a force for longer, and stops a handle in fewer periods.
+        let slow = PassivityController::new(&SafetySettings::default(), 0.1);
+        let got = slow.apply(Wrench::ZERO, &at(0.0, DVec3::X), &deficit(), 1.0, &mut LimitsHit::default());
+        assert!((got.force_n.x + 0.2).abs() < 1e-12, "{got:?}");
+    }
+
+    #[test]
+    fn where_energy_is_missing_a_force_may_only_take_it() {
+        let controller = PassivityController::new(&SafetySettings::default(), 1e-3);
+        let push = Wrench { torque_n_m: DVec3::Z * 0.2, ..Wrench::of_force(DVec3::X * 10.0) };
+        let with =
+            |velocity| controller.apply(push, &at(0.0, velocity), &deficit(), 1.0, &mut LimitsHit::default());
+        assert_eq!(with(DVec3::ZERO), Wrench::ZERO);
+        assert!(with(DVec3::X * 0.1).force_n.x < 0.0);
+        assert!(with(DVec3::X * -0.1).force_n.x > 1.0, "it slows down a hand that comes");
+    }
+}

@@ -2,8 +2,8 @@
 //! through topics, by the topics' delay and by the damping of hand and handle.
 //!
 //! Everything is computed, nothing is timed: a run gives the same numbers on every machine. The passivity controller is
-//! off, so that the limit is the contact's own. With it on (dashed) the limit is much the same: it bounds the energy of a
-//! contact that swings, it does not calm it.
+//! off, so that the limit is the contact's own. With it on (dashed) a hand that damps little swings at the same stiffness,
+//! with bounded energy; where the hand damps more, the controller brings every contact to rest that was tried.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -66,6 +66,8 @@ const LINES: [Line; 5] = [
         colour: ORANGE,
     },
 ];
+/// Height of letters in a figure, pixels.
+const TEXT: u32 = 16;
 const BLUE_DARK: RGBColor = RGBColor(0x0b, 0x3d, 0x66);
 const BLUE: RGBColor = RGBColor(0x1f, 0x7a, 0xc4);
 const ORANGE: RGBColor = RGBColor(0xd5, 0x5e, 0x00);
@@ -166,6 +168,8 @@ fn draw(file: &Path, study: &Study, curves: &[Curve]) -> Result<()> {
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
+        .label_style(("sans-serif", TEXT))
+        .axis_desc_style(("sans-serif", TEXT))
         .x_desc(study.label)
         .y_desc("largest stable stiffness, N/m")
         .y_label_formatter(&|n_per_m| format!("{n_per_m:.0}"))
@@ -191,6 +195,7 @@ fn draw(file: &Path, study: &Study, curves: &[Curve]) -> Result<()> {
     chart
         .configure_series_labels()
         .position(SeriesLabelPosition::UpperRight)
+        .label_font(("sans-serif", TEXT))
         .background_style(WHITE.mix(0.85))
         .border_style(BLACK.mix(0.2))
         .draw()
