@@ -197,6 +197,41 @@ impl<L: Line> SerialDevice<L> {
         self.push_out()
     }
 
+    /// Lets the device look for its reference position once. False when it ended without.
+    fn search(&mut self, until_ns: u64) -> Result<bool, DeviceError> {
+        self.flags |= command_flag::HOME;
+        let first = self.sequence;
+        let mut homed = false;
+        while self.line.now_ns() < until_ns {
+            self.send_newest()?;
+            self.line.wait(Duration::from_millis(2));
+            let state = self.read()?;
+            let newest = self.states.newest();
+            // It follows from the first state that echoes the wish on.
+            let ended = newest.is_some_and(|newest| {
+                let knows = |echo: u16| echo.wrapping_sub(first).cast_signed() >= 0;
+                newest.echo.is_some_and(|(echo, _)| knows(echo)) && newest.flags & state_flag::HOMING == 0
+            });
+            if ended {
+                homed = state.homed;
+                break;
+            }
+        }
+        self.flags &= !command_flag::HOME;
+        let without = self.sequence;
+        // The wish must be seen to go before it can come again.
+        while self.line.now_ns() < until_ns {
+            self.send_newest()?;
+            self.line.wait(Duration::from_millis(2));
+            self.read()?;
+            let echo = self.states.newest().and_then(|newest| newest.echo);
+            if echo.is_some_and(|(echo, _)| echo.wrapping_sub(without).cast_signed() >= 0) {
+                break;
+            }
+        }
+        Ok(homed)
+    }
+
     fn push_out(&mut self) -> Result<(), DeviceError> {
         if let Some(gone) = &self.gone {
             return Err(gone.clone());
@@ -302,26 +337,12 @@ impl<L: Line> Device for SerialDevice<L> {
 
     fn home(&mut self) -> Result<(), DeviceError> {
         self.wrench = Wrench::ZERO;
-        self.flags |= command_flag::HOME;
-        let first = self.sequence;
         let until_ns = self.line.now_ns() + ns(HOMED_WITHIN);
-        let homed = loop {
-            self.send_newest()?;
-            self.line.wait(Duration::from_millis(2));
-            let state = self.read()?;
-            let Some(newest) = self.states.newest() else { break false };
-            let knows = newest.echo.is_some_and(|(echo, _)| echo.wrapping_sub(first).cast_signed() >= 0);
-            if knows && newest.flags & state_flag::HOMING == 0 {
-                break state.homed;
+        // A hiccup here lets the device's watchdog end its search, and a handle that was held may be free later.
+        while self.line.now_ns() < until_ns {
+            if self.search(until_ns)? {
+                return Ok(());
             }
-            if self.line.now_ns() > until_ns {
-                break false;
-            }
-        };
-        self.flags &= !command_flag::HOME;
-        self.send_newest()?;
-        if homed {
-            return Ok(());
         }
         Err(DeviceError::Protocol {
             device: BACKEND,

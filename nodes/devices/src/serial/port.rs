@@ -3,8 +3,11 @@
 //! It is opened twice: by `serialport`, which sets the rate and keeps every other program out (`TIOCEXCL` and `flock`),
 //! and as a file that does not block, because `serialport`'s own reads wait for their timeout and allocate their errors.
 
+#![expect(unsafe_code, reason = "TIOCOUTQ has no safe wrapper that does not allocate its error")]
+
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Write};
+use std::os::fd::AsRawFd;
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::Path;
 use std::time::Duration;
@@ -17,7 +20,8 @@ use crate::{DeviceError, monotonic_ns};
 /// An open serial port. Nobody else has it as long as it lives.
 pub struct Port {
     file: File,
-    settings: TTYPort,
+    /// Holds the exclusive access.
+    _settings: TTYPort,
 }
 
 impl Port {
@@ -44,7 +48,7 @@ impl Port {
         }
         // What came before this moment was for nobody.
         let _ = settings.clear(ClearBuffer::All);
-        Ok(Port { file, settings })
+        Ok(Port { file, _settings: settings })
     }
 }
 
@@ -62,7 +66,10 @@ impl Line for Port {
     }
 
     fn unsent(&self) -> usize {
-        self.settings.bytes_to_write().map_or(0, |bytes| bytes as usize)
+        let mut bytes: libc::c_int = 0;
+        // SAFETY: the file is open as long as `self`, and TIOCOUTQ writes one int, which outlives the call.
+        let answer = unsafe { libc::ioctl(self.file.as_raw_fd(), libc::TIOCOUTQ, &raw mut bytes) };
+        if answer == 0 { usize::try_from(bytes).unwrap_or(0) } else { 0 }
     }
 
     fn wait(&mut self, time: Duration) {

@@ -6,7 +6,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use devices::serial::{SerialDevice, Settings};
-use devices::{Device, DeviceError, DeviceState};
+use devices::{Device, DeviceError, DeviceState, MotorsOff, Wrench};
 
 /// A running double in a folder of its own.
 pub(crate) struct Double {
@@ -43,7 +43,9 @@ impl Double {
             .arg(folder.path().join("ports/device"))
             .arg("--record")
             .arg(folder.path().join("record.csv"))
+            .args(["--attached", "yes"])
             .args(options.split_whitespace())
+            .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
             .unwrap();
@@ -124,11 +126,29 @@ pub(crate) fn signal(process: u32, name: &str) {
 pub(crate) fn read_until(device: &mut SerialDevice, what: impl Fn(&DeviceState) -> bool) -> DeviceState {
     let mut found = None;
     wait_until("a state", || {
-        let state = device.read().unwrap();
-        found = what(&state).then_some(state);
+        found = read(device).filter(&what);
         found.is_some()
     });
     found.unwrap()
+}
+
+/// A state, unless the machine was so busy that none came for 100 ms.
+pub(crate) fn read(device: &mut SerialDevice) -> Option<DeviceState> {
+    match device.read() {
+        Ok(state) => Some(state),
+        Err(DeviceError::Lost { reason: "no state for 100 ms", .. }) => None,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// One period of a loop that presses, and enables again whenever the machine was so busy that the watchdog acted.
+pub(crate) fn press(device: &mut SerialDevice, wrench: &Wrench) -> Option<DeviceState> {
+    let state = read(device);
+    if state.is_some_and(|state| state.motors_off == Some(MotorsOff::Watchdog)) {
+        device.enable().unwrap();
+    }
+    device.command(wrench).unwrap();
+    state
 }
 
 /// Waits for what must happen sooner or later.

@@ -3,7 +3,7 @@
 use devices::{Device, DeviceError, Wrench};
 use glam::DVec3;
 
-use crate::double::{Double, wait_until};
+use crate::double::{Double, press, read_until, wait_until};
 
 fn lost(result: Result<impl Sized, DeviceError>) -> bool {
     match result {
@@ -22,7 +22,7 @@ fn an_unplugged_device_is_lost_and_its_watchdog_takes_the_force_away() {
     device.command(&push).unwrap();
     double.wait_for(0, |line| !line.is_zero());
     double.signal("USR1");
-    wait_until("a loss", || lost(device.read()));
+    wait_until("a loss", || lost(device.command(&push)));
     assert!(lost(device.read()) && lost(device.command(&push)) && lost(device.enable()), "it stays lost");
     assert!(lost(device.disable()));
     double.wait_for(0, |line| line.event == "watchdog");
@@ -36,25 +36,27 @@ fn a_device_that_is_plugged_in_again_opens_with_the_same_settings_and_without_fo
     device.command(&Wrench::of_force(DVec3::X)).unwrap();
     double.wait_for(0, |line| !line.is_zero());
     double.signal("USR1");
-    wait_until("a loss", || lost(device.read()));
+    wait_until("a loss", || lost(device.command(&Wrench::ZERO)));
     assert!(matches!(double.open(), Err(DeviceError::NotFound { .. })));
     drop(device);
     let before = double.record().len();
     double.signal("USR2");
     wait_until("a port", || double.port().exists());
     let mut device = double.open().unwrap();
-    device.read().unwrap();
+    read_until(&mut device, |_| true);
     assert!(double.record()[before..].iter().all(|line| line.is_zero()));
     device.enable().unwrap();
-    device.command(&Wrench::of_force(DVec3::Y)).unwrap();
-    double.wait_for(before, |line| line.wrench[1] == 1.0);
+    wait_until("a push", || {
+        press(&mut device, &Wrench::of_force(DVec3::Y));
+        double.record()[before..].iter().any(|line| line.wrench[1] == 1.0)
+    });
 }
 
 #[test]
 fn a_device_that_falls_silent_is_lost_after_100_ms() {
     let double = Double::start("--fault mute");
     let mut device = double.open().unwrap();
-    let last = device.read().unwrap();
+    let last = read_until(&mut device, |_| true);
     device.enable().unwrap();
     let mut error = None;
     wait_until("a loss", || {

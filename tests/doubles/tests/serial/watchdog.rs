@@ -6,13 +6,13 @@ use devices::{Device, Wrench};
 use glam::DVec3;
 
 use crate::client::{Client, FORCE_N};
-use crate::double::{Double, Line, read_until, wait_until};
+use crate::double::{Double, Line, press, read_until, wait_until};
 
 const WATCHDOG: Duration = Duration::from_millis(20);
 
-/// The last command before the watchdog acted, and the watchdog's line.
+/// The last command before the watchdog acted for the last time, and the watchdog's line.
 fn last_command_and_watchdog(record: &[Line]) -> (&Line, &Line) {
-    let at = record.iter().position(|line| line.event == "watchdog").unwrap();
+    let at = record.iter().rposition(|line| line.event == "watchdog").unwrap();
     (&record[at - 1], &record[at])
 }
 
@@ -44,9 +44,13 @@ fn a_stopped_driver_leaves_no_force_after_20_ms_and_gets_none_back_when_it_goes_
     double.wait_for(0, |line| line.event == "watchdog");
     client.signal("CONT");
     assert!(client.ended_well());
+    wait_until("another 50 commands", || {
+        let record = double.record();
+        let (_, watchdog) = last_command_and_watchdog(&record);
+        record.iter().filter(|line| line.t_ns > watchdog.t_ns).count() > 50
+    });
     let record = double.record();
     let (_, watchdog) = last_command_and_watchdog(&record);
-    assert!(record.iter().filter(|line| line.t_ns > watchdog.t_ns).count() > 50, "it went on commanding");
     assert!(record.iter().filter(|line| line.t_ns > watchdog.t_ns).all(Line::is_zero));
     assert_force_ended_in_time(&record, double.end());
 }
@@ -62,14 +66,14 @@ fn a_device_whose_watchdog_acted_pushes_again_after_it_is_enabled_again() {
     read_until(&mut device, |state| state.motors_off.is_some());
     device.command(&push).unwrap();
     device.enable().unwrap();
-    assert_eq!(device.read().unwrap().motors_off, None, "what it said before it was enabled does not count");
+    let state = device.read();
+    assert!(state.is_ok_and(|state| state.motors_off.is_none()), "what it said before does not count");
     wait_until("a push", || {
-        device.command(&push).unwrap();
-        assert_eq!(device.read().unwrap().motors_off, None);
+        press(&mut device, &push);
         double.record().iter().any(|line| line.t_ns > watchdog.t_ns && !line.is_zero())
     });
     let record = double.record();
-    let again = record.iter().rposition(|line| line.event == "enable").unwrap();
-    let between = record.iter().take(again).skip_while(|line| line.event != "watchdog");
-    assert!(between.into_iter().all(Line::is_zero));
+    let acted = record.iter().position(|line| line.event == "watchdog").unwrap();
+    let until_enabled = record[acted..].iter().take_while(|line| line.event != "enable");
+    assert!(until_enabled.into_iter().all(Line::is_zero));
 }

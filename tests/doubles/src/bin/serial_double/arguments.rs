@@ -21,6 +21,8 @@ pub(crate) struct Arguments {
     pub homing_s: Option<f64>,
     /// Above this speed it switches its motors off, m/s.
     pub max_speed: f64,
+    /// It ends with its standard input.
+    pub attached: bool,
     pub hand: HandArguments,
 }
 
@@ -36,6 +38,7 @@ impl Arguments {
             joints: 3,
             homing_s: None,
             max_speed: f64::INFINITY,
+            attached: false,
             hand: HandArguments::default(),
         };
         while let Some(option) = words.next() {
@@ -51,6 +54,7 @@ impl Arguments {
                 "--joints" => arguments.joints = value.parse().map_err(|_| wrong("a number"))?,
                 "--homing" => arguments.homing_s = Some(value.parse().map_err(|_| wrong("s"))?),
                 "--max-speed" => arguments.max_speed = value.parse().map_err(|_| wrong("m/s"))?,
+                "--attached" => arguments.attached = value == "yes",
                 _ if arguments.hand.take(&option, &value)? => {}
                 _ => return Err(format!("{option} is no option")),
             }
