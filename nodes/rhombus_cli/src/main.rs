@@ -2,6 +2,8 @@
 //! line or an input was not accepted.
 
 mod assignments;
+#[cfg(feature = "device")]
+mod device;
 mod evaluate;
 mod explain;
 mod mesh;
@@ -26,6 +28,9 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Calibrate(Box<calibrate::Calibrate>),
+    #[cfg(feature = "device")]
+    #[command(subcommand)]
+    Device(device::Device),
     Evaluate(evaluate::Evaluate),
     Explain(explain::Explain),
     #[command(subcommand)]
@@ -39,6 +44,8 @@ enum Command {
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Calibrate(command) => command.run(),
+        #[cfg(feature = "device")]
+        Command::Device(command) => return command.run().unwrap_or_else(|error| refused(&error)),
         Command::Evaluate(command) => command.run(),
         Command::Explain(command) => command.run(),
         Command::Mesh(command) => command.run(),

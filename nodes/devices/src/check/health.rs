@@ -103,10 +103,17 @@ fn workspace(description: &Description, series: &Series) -> Finding {
     Finding::new(
         "workspace",
         verdict(outside == 0, true),
-        format!("the handle is at {x:.1} {y:.1} {z:.1} mm, {:.1} mm inside the edge", edge_m * 1e3),
+        format!(
+            "the handle is at {x:.1} {y:.1} {z:.1} mm, {:.1} mm {} the edge",
+            edge_m.abs() * 1e3,
+            if edge_m < 0.0 { "outside" } else { "inside" }
+        ),
         "move the handle inside; if it is, home the device",
     )
-    .held_against(format!("inside; outside in {outside} of {} readings", series.ticks.len()))
+    .held_against(format!(
+        "inside all the time; it was outside in {outside} of {} readings",
+        series.ticks.len()
+    ))
     .with("x_m", at.x)
     .with("y_m", at.y)
     .with("z_m", at.z)

@@ -6,7 +6,7 @@ use crate::Description;
 pub(super) fn findings(description: &Description) -> Vec<Finding> {
     let Description { backend, model, serial, firmware, .. } = description;
     let number = if serial.is_empty() { "no serial number".to_owned() } else { format!("serial {serial}") };
-    let versions = if firmware.is_empty() { "does not say" } else { firmware };
+    let versions = if firmware.is_empty() { "the device does not say" } else { firmware };
     vec![
         Finding::ok("device", format!("{model}, backend {backend}, {number}")),
         Finding::ok("firmware", versions),

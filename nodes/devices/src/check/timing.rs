@@ -146,7 +146,7 @@ fn gaps(series: &Series) -> Finding {
         format!("the longest time without a new reading is {:.1} ms, {count} gaps", longest_s * 1e3),
         "check the cable, other traffic on the bus, and the load of this machine",
     )
-    .held_against("no gap, that is three times the usual; more than 100 ms is a failure")
+    .held_against("no gap, a wait of three times the usual; more than 100 ms is a failure")
     .with("longest_s", longest_s)
     .with("gaps", count as f64)
 }
