@@ -186,7 +186,7 @@ impl Topics {
 
     /// A pose leaves where it is time for one, and what is due arrives.
     fn carry(&mut self, tick: u64, now_ns: u64, probe: DVec3, floor: &LocalLaw) {
-        if tick % self.every == 0 {
+        if tick.is_multiple_of(self.every) {
             self.on_the_way.push_back((tick + self.delay, now_ns, probe));
         }
         while let Some(&(due, stamp_ns, probe)) = self.on_the_way.front()
@@ -231,14 +231,14 @@ mod tests {
     fn setup(transport: Transport, damping_n_s_per_m: f64) -> ClosedLoop {
         let chain = ChainParameters {
             rod_length_m: 0.01,
-            angle_rad: 0.5236,
+            angle_rad: 0.6,
             ratio: 0.8,
             units: 12,
             normal_stiffness_n_per_m: 500.0,
             tangential_stiffness_n_per_m: 100.0,
             tangential_growth: 10.0,
             weight: 1.0,
-            pitch_m: 0.0173,
+            pitch_m: 0.0165,
         };
         ClosedLoop {
             law: Arc::new(ContactLaw::new(Formulation::Energy, &[chain]).unwrap()),
