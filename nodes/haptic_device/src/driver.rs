@@ -34,10 +34,7 @@ const SETTLE: Duration = Duration::from_millis(300);
 const REMINDER: Duration = Duration::from_secs(5);
 
 /// Runs the driver until the process is asked to end. `around` may put something around the device that was opened.
-pub(crate) fn run(
-    kit: &mut NodeKit,
-    around: impl FnOnce(Box<dyn Device>) -> Box<dyn Device>,
-) -> Result<()> {
+pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box<dyn Device>) -> Result<()> {
     let scene = Scene::from_parameters(kit.parameters().clone())?;
     let clutch_button = clutch_button(&scene)?;
     let settings = motor_settings(&scene)?;

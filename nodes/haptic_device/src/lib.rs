@@ -44,9 +44,6 @@ pub fn run(kit: &mut NodeKit) -> Result<()> {
 ///
 /// # Errors
 /// As for [`run`].
-pub fn run_with(
-    kit: &mut NodeKit,
-    around: impl FnOnce(Box<dyn Device>) -> Box<dyn Device>,
-) -> Result<()> {
+pub fn run_with(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box<dyn Device>) -> Result<()> {
     driver::run(kit, around)
 }
