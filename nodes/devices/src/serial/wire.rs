@@ -4,11 +4,13 @@
 //! Decoding takes any bytes: what is no frame or no message is said so, and nothing here looks at what a value means.
 //! All of it is RT safe.
 
+mod bits;
+mod fields;
 mod frame;
 mod messages;
 
+pub use bits::{Cause, capability, command_flag, state_flag};
 pub use frame::{BadFrame, Frame, MAX_FRAME, MAX_PAYLOAD, Receiver, checksum};
 pub use messages::{
-    COMMAND_FRAME, Cause, Command, Hello, HelloRequest, Message, NAME_LENGTH, PROTOCOL_VERSION, State,
-    WrongMessage, capability, command_flag, state_flag,
+    COMMAND_FRAME, Command, Hello, HelloRequest, Message, NAME_LENGTH, PROTOCOL_VERSION, State, WrongMessage,
 };

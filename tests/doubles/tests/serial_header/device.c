@@ -1,6 +1,6 @@
 /* Runs rhombus_device on a script: lines `TIME_US HEX`, bytes that come at a time, or `TIME_US off CAUSE`. After each it
  * says: greeted motors cause commanded lost_commands bad_frames fx fy fz tx ty tz grip action. */
-#include <rhombus_serial.h>
+#include <rhombus_device.h>
 #include <stdio.h>
 
 int main(void)

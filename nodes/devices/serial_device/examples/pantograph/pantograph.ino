@@ -15,7 +15,7 @@
  *
  * SPDX-License-Identifier: Apache-2.0 OR MIT
  */
-#include <rhombus_serial.h>
+#include <rhombus_device.h>
 
 /* ---- Your device: measure these ------------------------------------------------------------------------------------ */
 

@@ -1,6 +1,7 @@
 //! The four messages. Little endian, every field at a fixed place.
 
 use super::Frame;
+use super::fields::{Fields, Payload};
 
 /// The version of the protocol that this is.
 pub const PROTOCOL_VERSION: u8 = 1;
@@ -14,73 +15,8 @@ const COMMAND_TYPE: u8 = 0x02;
 const HELLO_TYPE: u8 = 0x81;
 const STATE_TYPE: u8 = 0x82;
 
-const HELLO_REQUEST: usize = 2;
 const COMMAND: usize = 32;
-const HELLO: usize = 140;
-const STATE: usize = 72;
 const STATE_JOINTS: usize = 8;
-
-/// Bits of [`Hello::capabilities`].
-pub mod capability {
-    /// It has motors for a force.
-    pub const FORCE: u32 = 1;
-    /// It has motors for a torque.
-    pub const TORQUE: u32 = 1 << 1;
-    /// It measures its orientation.
-    pub const ORIENTATION: u32 = 1 << 2;
-    /// It measures the opening of a gripper.
-    pub const GRIPPER: u32 = 1 << 3;
-    /// The gripper has a motor.
-    pub const GRIPPER_FORCE: u32 = 1 << 4;
-    /// Positions mean something only after homing.
-    pub const NEEDS_HOMING: u32 = 1 << 5;
-    /// It can carry its own weight.
-    pub const GRAVITY_COMPENSATION: u32 = 1 << 6;
-}
-
-/// Bits of [`Command::flags`].
-pub mod command_flag {
-    /// Motors on. A device that has switched them off itself wants to see a command without it first.
-    pub const MOTORS_ON: u8 = 1;
-    /// Find the reference position; begins when it appears, ends early when it goes.
-    pub const HOME: u8 = 1 << 1;
-    /// Carry the device's own weight.
-    pub const GRAVITY_COMPENSATION: u8 = 1 << 2;
-}
-
-/// Bits of [`State::flags`].
-pub mod state_flag {
-    /// The motors are on.
-    pub const MOTORS_ON: u8 = 1;
-    /// The position is referenced.
-    pub const HOMED: u8 = 1 << 1;
-    /// It is finding its reference position.
-    pub const HOMING: u8 = 1 << 2;
-    /// At least one command came since the hello: the echo means something.
-    pub const COMMANDED: u8 = 1 << 3;
-}
-
-/// Why the motors are off: the values of [`State::cause`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Cause {
-    /// They are on, or were never asked to be.
-    None = 0,
-    /// A command said so.
-    Command = 1,
-    /// No command came in time.
-    Watchdog = 2,
-    /// The handle was too fast.
-    Velocity = 3,
-    /// A force button is not pressed.
-    Button = 4,
-    /// The dead man's switch was released.
-    DeadMan = 5,
-    /// The device's emergency stop.
-    Emergency = 6,
-    /// Anything else.
-    Other = 255,
-}
 
 /// Host to device: who are you? Switches the motors off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,7 +28,7 @@ pub struct HelloRequest {
 /// Host to device: the wrench on the hand, and what else is wanted. Complete each time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Command {
-    /// Bits of [`command_flag`].
+    /// Bits of [`command_flag`](super::command_flag).
     pub flags: u8,
     /// One more than that of the command before.
     pub sequence: u16,
@@ -113,7 +49,7 @@ pub struct Hello {
     pub buttons: u8,
     /// How many joints are reported, at most 8.
     pub joints: u8,
-    /// Bits of [`capability`].
+    /// Bits of [`capability`](super::capability).
     pub capabilities: u32,
     /// After this time without a command the force is off, ms.
     pub watchdog_ms: u16,
@@ -142,9 +78,9 @@ pub struct Hello {
 /// Device to host: the handle now.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State {
-    /// Bits of [`state_flag`].
+    /// Bits of [`state_flag`](super::state_flag).
     pub flags: u8,
-    /// A value of [`Cause`].
+    /// A value of [`Cause`](super::Cause).
     pub cause: u8,
     /// Commands that never came, by the gaps in their sequence, modulo 256.
     pub lost_commands: u8,
@@ -200,7 +136,7 @@ impl Message {
     /// # Errors
     /// Says why a payload is no message of this version.
     pub fn decode(payload: &[u8]) -> Result<Message, WrongMessage> {
-        let mut fields = Fields(payload);
+        let mut fields = Fields::new(payload);
         let kind = fields.u8()?;
         let message = match kind {
             HELLO_REQUEST_TYPE => Message::HelloRequest(HelloRequest { version: fields.u8()? }),
@@ -215,14 +151,16 @@ impl Message {
             STATE_TYPE => State::decode(&mut fields)?,
             _ => return Err(WrongMessage::Type),
         };
-        if fields.0.is_empty() { Ok(message) } else { Err(WrongMessage::Length) }
+        if fields.is_empty() { Ok(message) } else { Err(WrongMessage::Length) }
     }
 }
 
 impl HelloRequest {
     /// Ready to send.
     pub fn frame(&self) -> Frame {
-        framed(&[HELLO_REQUEST_TYPE, self.version], HELLO_REQUEST)
+        let mut payload = Payload::new(HELLO_REQUEST_TYPE);
+        payload.put(&[self.version]);
+        payload.framed()
     }
 }
 
@@ -235,7 +173,7 @@ impl Command {
         payload.floats(&self.force_n);
         payload.floats(&self.torque_n_m);
         payload.floats(&[self.gripper_force_n]);
-        framed(&payload.bytes, COMMAND)
+        payload.framed()
     }
 }
 
@@ -253,7 +191,7 @@ impl Hello {
         for name in [&self.model, &self.serial, &self.firmware] {
             payload.put(name);
         }
-        framed(&payload.bytes, HELLO)
+        payload.framed()
     }
 
     /// A name as [`Hello`] holds it, cut to its length.
@@ -306,7 +244,7 @@ impl State {
         payload.floats(&self.angular_velocity_rad_per_s);
         payload.floats(&[self.gripper_rad]);
         payload.floats(&self.joints[..joints]);
-        framed(&payload.bytes, STATE + 4 * joints)
+        payload.framed()
     }
 
     fn decode(fields: &mut Fields<'_>) -> Result<Message, WrongMessage> {
@@ -327,72 +265,10 @@ impl State {
             joints: [0.0; STATE_JOINTS],
         };
         let mut joints = 0;
-        while !fields.0.is_empty() {
+        while !fields.is_empty() {
             *state.joints.get_mut(joints).ok_or(WrongMessage::Length)? = fields.f32()?;
             joints += 1;
         }
         Ok(Message::State(state, joints))
-    }
-}
-
-/// A payload being written. No message is longer than a hello.
-struct Payload {
-    bytes: [u8; HELLO],
-    length: usize,
-}
-
-impl Payload {
-    fn new(kind: u8) -> Payload {
-        let mut bytes = [0; HELLO];
-        bytes[0] = kind;
-        Payload { bytes, length: 1 }
-    }
-
-    fn put(&mut self, field: &[u8]) {
-        let end = self.length + field.len();
-        self.bytes[self.length..end].copy_from_slice(field);
-        self.length = end;
-    }
-
-    fn floats(&mut self, fields: &[f32]) {
-        for field in fields {
-            self.put(&field.to_le_bytes());
-        }
-    }
-}
-
-fn framed(payload: &[u8], length: usize) -> Frame {
-    #[expect(clippy::expect_used, reason = "the length of every message is a constant within MAX_PAYLOAD")]
-    Frame::new(&payload[..length]).expect("a message fits a frame")
-}
-
-/// A payload being read.
-struct Fields<'a>(&'a [u8]);
-
-impl Fields<'_> {
-    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], WrongMessage> {
-        let (field, rest) = self.0.split_first_chunk::<N>().ok_or(WrongMessage::Length)?;
-        self.0 = rest;
-        Ok(*field)
-    }
-
-    fn u8(&mut self) -> Result<u8, WrongMessage> {
-        Ok(self.bytes::<1>()?[0])
-    }
-
-    fn u16(&mut self) -> Result<u16, WrongMessage> {
-        Ok(u16::from_le_bytes(self.bytes()?))
-    }
-
-    fn f32(&mut self) -> Result<f32, WrongMessage> {
-        Ok(f32::from_le_bytes(self.bytes()?))
-    }
-
-    fn f32s<const N: usize>(&mut self) -> Result<[f32; N], WrongMessage> {
-        let mut floats = [0.0; N];
-        for float in &mut floats {
-            *float = self.f32()?;
-        }
-        Ok(floats)
     }
 }
