@@ -27,7 +27,7 @@ fn limits(description: &Description) -> Finding {
     ] {
         match value {
             Some(value) => {
-                parts.push(format!("{name} {value} {unit}"));
+                parts.push(format!("{name} {} {unit}", six_digits(value)));
                 numbers.push((key, value));
             }
             None => parts.push(format!("no {name}")),
@@ -47,6 +47,11 @@ fn limits(description: &Description) -> Finding {
         ),
     };
     Finding { numbers, ..finding.held_against("each a finite number above 0") }
+}
+
+/// Limits come as single precision too: 0.4, not 0.4000000059604645.
+fn six_digits(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
 }
 
 fn watchdog(description: &Description) -> Finding {

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::noise::Noise;
 use super::pulses::Pulses;
-use super::sampling::{End, Next, Series, sample};
+use super::sampling::{Broken, End, Next, Series, sample};
 use super::{Finding, Settings, Verdict, ended};
 use crate::safety::{CheckedSettings, SafetyError, SafetyLayer, SafetySettings};
 use crate::source::{ForceOrigin, Wanted};
@@ -13,6 +13,8 @@ use crate::{Description, Device, MotorsOff, Wrench};
 /// The safety layer's gate opens slowly; the pushes begin when it is open, s.
 const RAMP_S: f64 = 2.0;
 const BEGIN_S: f64 = 2.3;
+/// Until here the hand may take the handle and move it.
+const WATCHED_S: f64 = 2.2;
 /// A handle that is faster or goes further is held by nobody.
 const FASTEST_M_PER_S: f64 = 0.3;
 const FURTHEST_M: f64 = 0.03;
@@ -20,6 +22,9 @@ const FURTHEST_M: f64 = 0.03;
 const FELT_M: f64 = 50e-6;
 
 const HOLD: &str = "hold the handle loosely in one hand, away from its stops, and run this again";
+
+/// Fewer commands than this in the watchdog's time leave no room for a late one.
+const COMMANDS_PER_WATCHDOG: f64 = 3.0;
 
 /// Switches the motors on, pushes to and fro along each axis, switches them off.
 pub(super) fn findings(
@@ -30,6 +35,17 @@ pub(super) fn findings(
     stop: &AtomicBool,
 ) -> Vec<Finding> {
     let description = device.description().clone();
+    if let Some(slowest_hz) = too_slow(&description, settings.rate_hz) {
+        let watchdog_ms = description.watchdog.unwrap_or_default().as_secs_f64() * 1e3;
+        return vec![Finding::warning(
+            "forces",
+            format!(
+                "not tried: at {} Hz the device's watchdog of {watchdog_ms} ms would strike",
+                settings.rate_hz
+            ),
+            format!("take a --rate of {slowest_hz:.0} or more"),
+        )];
+    }
     match device.read() {
         Ok(state) if description.needs_homing && !state.homed => {
             return vec![Finding::warning("forces", "not tried: the device is not homed", "home it first")];
@@ -54,12 +70,10 @@ pub(super) fn findings(
     let off = device.command(&Wrench::ZERO).and_then(|()| device.disable());
     let mut findings = match &series.end {
         End::Whole => vec![judge(&pulses, force_n, &series, noise)],
-        End::Broken(why) => vec![Finding::failure("forces", why.clone(), HOLD)],
+        End::Broken(Broken { why, remedy }) => vec![Finding::failure("forces", why.clone(), *remedy)],
         End::Lost(_) | End::Stopped => Vec::new(),
     };
-    if !matches!(series.end, End::Broken(_)) {
-        ended(&series, "with motors on", &mut findings);
-    }
+    ended(&series, "with motors on", &mut findings);
     if let Err(error) = off {
         findings.push(Finding::failure(
             "motors_off",
@@ -68,6 +82,12 @@ pub(super) fn findings(
         ));
     }
     findings
+}
+
+/// The slowest rate at which this device's motors stay on; none: the rate is not slower.
+fn too_slow(description: &Description, rate_hz: f64) -> Option<f64> {
+    let slowest_hz = COMMANDS_PER_WATCHDOG / description.watchdog?.as_secs_f64();
+    (rate_hz < slowest_hz).then(|| slowest_hz.ceil())
 }
 
 /// The passivity controller stays off: a push is there to do work on the hand, and it would take that back. Force, speed
@@ -99,17 +119,17 @@ fn push(
         }
         let position = state.pose.translation;
         if let Some(cause) = state.motors_off {
-            return Next::Break(format!("the device switched its motors off: {}", reason(cause)));
+            let (reason, remedy) = reason(cause);
+            return Next::Break(Broken {
+                why: format!("the device switched its motors off: {reason}"),
+                remedy,
+            });
         }
-        // Until the pushes begin, the hand may take the handle.
-        let started = time_s >= BEGIN_S - RAMP_S.min(0.1);
+        let started = time_s >= WATCHED_S;
         let went_m = if started { (position - *start.get_or_insert(position)).length() } else { 0.0 };
         if went_m > FURTHEST_M {
-            return Next::Break(format!(
-                "the handle went {:.0} mm under {:.2} N",
-                went_m * 1e3,
-                safety.max_force_n
-            ));
+            let why = format!("the handle went {:.0} mm under {:.2} N", went_m * 1e3, safety.max_force_n);
+            return Next::Break(Broken { why, remedy: HOLD });
         }
         let wanted = Wanted {
             wrench: Wrench::of_force(pulses.at(time_s)),
@@ -119,22 +139,30 @@ fn push(
         };
         let applied = layer.step(&wanted, state, true, now_ns);
         match applied.fault {
-            Some(_) => Next::Break(format!("the handle was faster than {FASTEST_M_PER_S} m/s")),
+            Some(_) => {
+                let why = format!("the handle was faster than {FASTEST_M_PER_S} m/s");
+                Next::Break(Broken { why, remedy: HOLD })
+            }
             None => Next::Command(applied.wrench),
         }
     })
 }
 
-fn reason(cause: MotorsOff) -> &'static str {
+/// Why, and what to do.
+fn reason(cause: MotorsOff) -> (&'static str, &'static str) {
+    const BUSY: &str = "see to the scheduling and to the load of this machine";
+    const ITS_PAPERS: &str = "see what the device's maker says of its lights, then run this again";
     match cause {
-        MotorsOff::Button => "the button that switches the forces on is not pressed",
-        MotorsOff::Velocity => "the handle was faster than it allows",
-        MotorsOff::Watchdog => "no command came in its watchdog's time",
-        MotorsOff::Software => "software said so",
-        MotorsOff::Usb => "the cable was pulled",
-        MotorsOff::DeadMan => "the dead man's switch is released",
-        MotorsOff::Emergency => "its emergency stop is pressed",
-        MotorsOff::Other => "it does not say why",
+        MotorsOff::Button => {
+            ("the button that switches the forces on is not pressed", "press it, and run this again")
+        }
+        MotorsOff::Velocity => ("the handle was faster than it allows", HOLD),
+        MotorsOff::Watchdog => ("no command came in its watchdog's time", BUSY),
+        MotorsOff::Software => ("software said so", "end other programs that use the device"),
+        MotorsOff::Usb => ("the cable was pulled", "connect the cable, and run this again"),
+        MotorsOff::DeadMan => ("the dead man's switch is released", "hold it, and run this again"),
+        MotorsOff::Emergency => ("its emergency stop is pressed", "release it, and run this again"),
+        MotorsOff::Other => ("it does not say why", ITS_PAPERS),
     }
 }
 

@@ -42,14 +42,21 @@ pub(super) enum End {
     Lost(DeviceError),
     /// From outside.
     Stopped,
-    /// By the force test, and why.
-    Broken(String),
+    /// By the force test.
+    Broken(Broken),
+}
+
+/// Why sampling was broken off, and what to do.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Broken {
+    pub(super) why: String,
+    pub(super) remedy: &'static str,
 }
 
 /// What to do next, after a reading.
 pub(super) enum Next {
     Command(Wrench),
-    Break(String),
+    Break(Broken),
 }
 
 /// What came, period for period.
@@ -124,8 +131,8 @@ pub(super) fn sample(
         (series.status[1], series.homed) = (state.status, state.homed);
         let wrench = match next(due_ns as f64 * 1e-9, &state, read_ns) {
             Next::Command(wrench) => wrench,
-            Next::Break(why) => {
-                series.end = End::Broken(why);
+            Next::Break(broken) => {
+                series.end = End::Broken(broken);
                 break;
             }
         };
