@@ -155,7 +155,8 @@ fn draw(file: &Path, study: &Study, curves: &[Curve]) -> Result<()> {
     let failed = |error: DrawingAreaErrorKind<std::io::Error>| anyhow!("{error}");
     let stiffnesses = || curves.iter().flatten().filter_map(|(_, stiffness)| *stiffness);
     let low = stiffnesses().fold(f64::INFINITY, f64::min) * 0.7;
-    let high = stiffnesses().fold(0.0, f64::max) * 1.6;
+    // Room for the legend above the lines.
+    let high = stiffnesses().fold(0.0, f64::max) * 12.0;
     let right = study.values.iter().copied().fold(0.0, f64::max) * 1.02;
     let root = SVGBackend::new(file, (900, 560)).into_drawing_area();
     root.fill(&WHITE).map_err(failed)?;
