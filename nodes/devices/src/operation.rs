@@ -149,7 +149,10 @@ impl Operation {
         let Some(next) = self.operating.after(command) else { return Ok(false) };
         match command {
             StateCommand::Enable => {
-                let (Some(device), None) = (device, self.present()) else { return Ok(false) };
+                let Some(device) = device else { return Ok(false) };
+                if self.present().is_some() {
+                    return Ok(false);
+                }
                 // Motors whose force is still on its way to zero after a disable are on.
                 if !self.motors_on {
                     device.enable()?;

@@ -30,6 +30,7 @@ fn safety_settings(scene: &Scene) -> Result<SafetySettings> {
         max_gripper_force_n: device.max_gripper_force_n,
         slew_n_per_s: parameters.double("safety.slew")?,
         torque_slew_n_m_per_s: parameters.double("safety.torque_slew")?,
+        gripper_slew_n_per_s: parameters.double("safety.gripper_slew")?,
         max_power_w: parameters.double("safety.max_power")?,
         max_speed_m_per_s: parameters.double("safety.max_speed")?,
         engage_force_n: parameters.double("safety.engage_force")?,
@@ -42,7 +43,6 @@ fn safety_settings(scene: &Scene) -> Result<SafetySettings> {
         passivity: parameters.bool("safety.passivity")?,
         workspace_margin_m: parameters.double("safety.workspace_margin")?,
         ros_timeout_s: parameters.double("safety.ros_timeout")?,
-        ..SafetySettings::default()
     })
 }
 
