@@ -18,11 +18,15 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         Check::Within(0.01, 20.0),
         "The largest force of this device, which its service does not say.",
     ),
-    text("serial.port", "", "Serial port of a self-built device; \"\": the only port at which one answers."),
+    text(
+        "serial.port",
+        "",
+        "Serial port of a self-built device, or a folder of ports; \"\": the only USB serial port at which one answers.",
+    ),
     integer(
         "serial.baud",
         921_600,
-        Check::Within(9600.0, 12_000_000.0),
+        Check::Within(57_600.0, 12_000_000.0),
         "Speed of the serial port, bits per second; without meaning where the port is USB throughout.",
     ),
     number(
