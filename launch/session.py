@@ -1,12 +1,16 @@
-"""A session on a machine without `ros2 launch`: start the four nodes, watch them, sum up.
+"""A session on a machine without `ros2 launch`: start the nodes, watch them, sum up.
 
-Called by launch/demo, which has set up the environment and checked the scene. A node that ends before its time ends
-the session with its log and exit code 1. The summary is what the nodes report about themselves when they close.
+Called by launch/demo, which has set up the environment and built the nodes. Exit code 2 for an option or a scene that is
+not accepted, before anything starts. A node that cannot start or ends before its time ends the session with what it said
+and exit code 1; of several drivers one may end and the others go on. The summary is what the nodes report about
+themselves when they close.
 """
 
 import argparse
 import json
 import os
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -18,31 +22,34 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.executors import ExternalShutdownException
 
-REPOSITORY = Path(__file__).resolve().parent.parent
+from session_plan import PROGRAMS, REPOSITORY, Plan, Refused
+from session_report import live_line, summary
+
 READY_TIMEOUT_S = 20.0
 STOP_TIMEOUT_S = 10.0
+# A session without a real device ends by itself.
+SIMULATED_DURATION_S = 15.0
+ERROR_LINE = re.compile(r"^\[(?:ERROR|FATAL)\](?: \[[^\]]*\])*: (.*)$", re.MULTILINE)
 
 
 class NodeProcess:
     """One node executable with its log file."""
 
-    def __init__(self, executable, name, options, parameters, log_directory):
-        self.name = name
-        self.log_path = log_directory / f"{name}.log"
-        command = [str(REPOSITORY / "target" / "release" / executable), "--ros-args", "-r", f"__node:={name}"]
-        if options.namespace:
-            command += ["-r", "__ns:=/" + options.namespace.strip("/")]
-        command += ["--log-level", options.log_level, "--params-file", options.scene]
-        for key, value in parameters.items():
-            command += ["-p", f"{key}:={value}"]
-        self.log = open(self.log_path, "wb")
+    def __init__(self, plan, options, log_directory):
+        self.label = plan.label
+        self.log_path = log_directory / f"{plan.full_name.removeprefix(options.namespace_prefix).replace('/', '_')}.log"
+        command = [str(PROGRAMS / plan.executable), *plan.arguments(options.scene, options.log_level)]
         # A session of its own: Ctrl-C reaches this script only, which then ends the nodes in order.
-        self.process = subprocess.Popen(
-            command, stdout=self.log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, start_new_session=True
-        )
+        with open(self.log_path, "wb") as log:
+            self.process = subprocess.Popen(
+                command, stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, start_new_session=True
+            )
 
     def text(self):
         return self.log_path.read_text(errors="replace")
+
+    def is_ready(self):
+        return "ready:" in self.text()
 
     def has_ended(self):
         return self.process.poll() is not None
@@ -52,15 +59,22 @@ class NodeProcess:
             self.process.send_signal(signal.SIGINT)
 
     def wait_or_kill(self, timeout_s):
+        """None, or what was wrong with the node's end."""
         try:
             self.process.wait(timeout_s)
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait()
-            return f"{self.name} did not stop within {timeout_s:.0f} s of SIGINT and was killed"
-        if self.process.returncode != 0:
-            return f"{self.name} ended with exit code {self.process.returncode}"
-        return None
+            return self.problem(f"did not stop within {timeout_s:.0f} s of SIGINT and was killed")
+        return self.problem(f"ended with exit code {self.process.returncode}") if self.process.returncode else None
+
+    def problem(self, what):
+        """For people: the errors that the node logged; without any, what happened and the end of its log."""
+        errors = ERROR_LINE.findall(self.text())
+        if errors and self.process.returncode == 1:
+            return "\n".join(f"demo: {self.label}: {error}" for error in dict.fromkeys(errors[-3:]))
+        end = ["  " + line for line in self.text().splitlines()[-30:]]
+        return "\n".join([f"demo: {self.label} {what}; its log ({self.log_path}):", *end])
 
     def closing_report(self):
         marker = "closing report: "
@@ -71,10 +85,10 @@ class NodeProcess:
 
 
 class Monitor:
-    """The newest diagnostics of each node, its statuses together, read by a thread of its own."""
+    """The newest diagnostics of each node, read by a thread of its own."""
 
     def __init__(self, namespace):
-        self.prefix = "/" + namespace.strip("/") + "/" if namespace else "/"
+        self.prefix = namespace.rstrip("/")
         self.values = {}
         rclpy.init(args=[], signal_handler_options=rclpy.SignalHandlerOptions.NO)
         self.node = rclpy.create_node("session_monitor", namespace=namespace)
@@ -84,10 +98,9 @@ class Monitor:
 
     def receive(self, message):
         for status in message.status:
-            node = status.name.split(":", 1)[0]
-            if node.startswith(self.prefix):
-                values = {entry.key: entry.value for entry in status.values}
-                self.values.setdefault(node[len(self.prefix) :], {}).update(values)
+            node, _, subject = status.name.partition(": ")
+            values = {entry.key: entry.value for entry in status.values}
+            self.values.setdefault(node, {})[subject] = values
 
     def spin(self):
         try:
@@ -95,151 +108,159 @@ class Monitor:
         except ExternalShutdownException:
             pass
 
-    def value(self, node, key, default="-"):
-        return self.values.get(node, {}).get(key, default)
+    def value(self, node, key, subject=None):
+        """Of a node (a full name, or one relative to the session) and a subject; without one, whichever has the key."""
+        subjects = self.values.get(node if node.startswith("/") else f"{self.prefix}/{node}", {})
+        found = [subjects.get(subject, {})] if subject else list(subjects.values())
+        return next((values[key] for values in found if key in values), "-")
 
     def close(self):
         rclpy.shutdown()
         self.thread.join(2.0)
 
 
+class Session:
+    """The processes of a session, from the first to the last."""
+
+    def __init__(self, plan, options):
+        self.plan, self.options = plan, options
+        self.log_directory = Path(options.log)
+        self.drivers, self.others = [], []
+        self.problems, self.lost = [], []
+        self.interrupted = threading.Event()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, lambda *_: self.interrupted.set())
+
+    def start_node(self, plan):
+        return NodeProcess(plan, self.options, self.log_directory)
+
+    def start(self):
+        """Start everything; whether it is all there. What cannot start, a device that is not there first of all, is
+        known before anything is recorded. The drivers send their first pose when all that read poses are there."""
+        readers = 3 if self.options.record else 2
+        self.drivers = [self.start_node(plan) for plan in self.plan.drivers(readers)]
+        self.others = [self.start_node(self.plan.node(name)) for name in ("deformation", "visualization")]
+        if not self.wait_ready(self.others):
+            return False
+        if self.options.record:
+            parameters = [
+                ("bag_replay.mode", "record"),
+                ("recording.directory", json.dumps(str(REPOSITORY / "recordings"))),
+                ("recording.name", json.dumps(self.options.name)),
+            ]
+            recorder = self.start_node(self.plan.node("bag_replay", "recorder", parameters))
+            # In front, so that it ends last.
+            self.others.insert(0, recorder)
+            if not self.wait_ready([recorder]):
+                return False
+        return self.wait_ready(self.drivers)
+
+    def wait_ready(self, nodes):
+        """Until these nodes are ready; false when one of the session has ended, is too late or the user has had enough."""
+        deadline = time.monotonic() + READY_TIMEOUT_S
+        while not all(node.is_ready() for node in nodes):
+            ended = [node for node in [*self.drivers, *self.others] if node.has_ended()]
+            late = [node for node in nodes if not node.is_ready()] if time.monotonic() >= deadline else []
+            self.problems += [node.problem(f"ended with exit code {node.process.returncode}") for node in ended]
+            self.problems += [node.problem(f"was not ready within {READY_TIMEOUT_S:.0f} s") for node in late]
+            if self.problems or self.interrupted.is_set():
+                return False
+            time.sleep(0.02)
+        return True
+
+    def run(self, monitor):
+        """Until the time is up, the user ends it, or a node that the session needs is gone."""
+        start = time.monotonic()
+        live = sys.stdout.isatty()
+        next_line_s = 0.0
+        while not self.interrupted.is_set():
+            elapsed_s = time.monotonic() - start
+            if not self.is_whole() or (self.options.duration is not None and elapsed_s >= self.options.duration):
+                break
+            if elapsed_s >= next_line_s:
+                line = live_line(self.plan, monitor, elapsed_s, self.options.duration)
+                print(line, end="\r" if live else "\n", flush=True)
+                next_line_s += 0.5 if live else 2.0
+            time.sleep(0.05)
+        print()
+
+    def is_whole(self):
+        """Whether the session can go on. A driver that has ended leaves the other devices at work."""
+        for node in [node for node in [*self.drivers, *self.others] if node.has_ended()]:
+            problem = node.problem(f"ended by itself with exit code {node.process.returncode}")
+            if node in self.others or len(self.drivers) == 1:
+                self.problems.append(problem)
+                return False
+            print(f"\n{problem}\ndemo: the session goes on without {node.label}", file=sys.stderr, flush=True)
+            self.drivers.remove(node)
+            self.lost.append(node.label)
+        return True
+
+    def stop(self):
+        """End the nodes: all drivers first, so that the motors are off, then in the order of the data; the recorder is the
+        last. Their closing reports, by label."""
+        nodes = [*self.drivers, *reversed(self.others)]
+        already_gone = {node.label for node in nodes if node.has_ended()}
+        for node in self.drivers:
+            node.interrupt()
+        for node in nodes:
+            # A second signal would make a driver leave in a hurry.
+            if node in self.others:
+                node.interrupt()
+            problem = node.wait_or_kill(STOP_TIMEOUT_S)
+            if problem and node.label not in already_gone:
+                self.problems.append(problem)
+        return {node.label: node.closing_report() for node in nodes}
+
+
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--duration", type=float, required=True, help="seconds")
+    parser.add_argument("--duration", type=float, help="seconds")
     parser.add_argument("--scene", required=True, help="ROS parameter file")
     parser.add_argument("--mesh", default="", help="replaces body.mesh of the scene")
-    parser.add_argument("--device", default="simulated", help="device backend")
+    parser.add_argument("--device", action="append", default=[], help="[NAME=]BACKEND[:SERIAL], for each device")
+    parser.add_argument("--set", action="append", default=[], help="[NAME/]KEY=VALUE, in place of the scene's value")
     parser.add_argument("--namespace", default="")
     parser.add_argument("--name", required=True, help="of the recording and the log directory")
     parser.add_argument("--log", required=True, help="directory of the nodes' logs")
     parser.add_argument("--log-level", default="warn")
     parser.add_argument("--record", action="store_true")
-    return parser.parse_args()
-
-
-def start_nodes(options, log_directory):
-    """Yield each node once it is ready, in the order in which the data will need them: the device comes last."""
-    common = {"body.mesh": json.dumps(options.mesh)} if options.mesh else {}
-    plan = [
-        ("deformation", "deformation", {}),
-        ("visualization", "visualization", {}),
-        ("haptic_device", "haptic_device", {"device.backend": options.device}),
-    ]
-    if options.record:
-        recorder = {
-            "bag_replay.mode": "record",
-            "recording.directory": json.dumps(str(REPOSITORY / "recordings")),
-            "recording.name": json.dumps(options.name),
-        }
-        plan.insert(0, ("bag_replay", "recorder", recorder))
-    for executable, name, parameters in plan:
-        if name == "haptic_device":
-            # Every reader of the poses must be there before the first pose is sent.
-            parameters = {**parameters, "device.wait_for_readers": len(plan) - 1}
-        node = NodeProcess(executable, name, options, {**common, **parameters}, log_directory)
-        yield node
-        deadline = time.monotonic() + READY_TIMEOUT_S
-        while "ready:" not in node.text() and not node.has_ended() and time.monotonic() < deadline:
-            time.sleep(0.02)
-
-
-def live_line(monitor, elapsed_s, duration_s):
-    """One line that says how the session runs."""
-    rate = monitor.value("deformation", "rate_hz")
-    depth = monitor.value("deformation", "depth_mm")
-    force = monitor.value("deformation", "force_n")
-    latency = monitor.value("haptic_device", "latency_median_us")
-    return (
-        f"{elapsed_s:5.1f} / {duration_s:.1f} s   poses {rate} Hz   depth {depth} mm   force {force} N"
-        f"   latency {latency} us"
-    )
-
-
-def summary(reports, options):
-    """The closing reports as a short plain-text table."""
-    device, model = reports.get("haptic_device", {}), reports.get("deformation", {})
-    recorder, view = reports.get("recorder", {}), reports.get("visualization", {})
-    latency = device.get("latency_us") or {}
-
-    def number(source, key, digits=0):
-        value = source.get(key)
-        return "-" if value is None else f"{value:.{digits}f}"
-
-    lines = [
-        "session summary",
-        f"  poses sent            {number(device, 'poses')}   ({number(device, 'pose_rate_hz', 1)} Hz)",
-        f"  forces received       {number(device, 'forces')}   ({number(device, 'force_rate_hz', 1)} Hz)",
-        f"  poses unanswered      {number(device, 'unanswered')}",
-        f"  poses rejected        {number(model, 'rejected')}",
-        f"  surfaces published    {number(model, 'surfaces')}",
-        f"  markers published     {number(view, 'markers')}",
-        f"  peak depth            {number(model, 'peak_depth_mm', 2)} mm",
-        f"  peak force            {number(model, 'peak_force_n', 3)} N",
-        f"  pose to force         median {number(latency, 'median')} us, p99 {number(latency, 'p99')} us, "
-        f"max {number(latency, 'max')} us",
-        f"  answered in           median {number(model, 'step_median_us', 1)} us, p99 {number(model, 'step_p99_us', 1)} us "
-        "(in the model node: pose taken to force sent)",
-        f"  missed deadlines      {number(device, 'missed_deadlines')} (force later than one period), "
-        f"{number(device, 'late_ticks')} late ticks of the motor loop",
-    ]
-    if options.record:
-        lines.append(f"  messages recorded     {number(recorder, 'messages')}")
-        lines.append(f"recording: recordings/{options.name}")
-    else:
-        lines.append("recording: none (--no-record)")
-    return "\n".join(lines)
-
-
-def stop(nodes):
-    """End the nodes, the source of data first and the recorder last; return what went wrong."""
-    problems = []
-    for node in reversed(nodes):
-        node.interrupt()
-        problem = node.wait_or_kill(STOP_TIMEOUT_S)
-        if problem:
-            problems.append((node, problem))
-    return problems
+    options = parser.parse_args()
+    options.namespace_prefix = "/" + options.namespace.strip("/") + "/" if options.namespace.strip("/") else "/"
+    return options
 
 
 def main():
     options = parse_arguments()
-    log_directory = Path(options.log)
-    interrupted = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: interrupted.set())
-
-    monitor = Monitor(options.namespace)
-    nodes = []
-    dead = None
     try:
-        for node in start_nodes(options, log_directory):
-            nodes.append(node)
-        start = time.monotonic()
-        live = sys.stdout.isatty()
-        next_line_s = 0.0
-        while dead is None and not interrupted.is_set():
-            elapsed_s = time.monotonic() - start
-            dead = next((node for node in nodes if node.has_ended()), None)
-            if elapsed_s >= options.duration:
-                break
-            if elapsed_s >= next_line_s:
-                end = "\r" if live else "\n"
-                print(live_line(monitor, elapsed_s, options.duration), end=end, flush=True)
-                next_line_s += 0.5 if live else 2.0
-            time.sleep(0.05)
+        plan = Plan(options)
+    except Refused as refused:
+        print(f"demo: {refused}", file=sys.stderr)
+        return 2
+    Path(options.log, "explain.txt").write_text("\n".join(plan.explanations))
+    if options.duration is None and plan.has_only_simulated_devices:
+        options.duration = SIMULATED_DURATION_S
+
+    session = Session(plan, options)
+    monitor = Monitor(plan.namespace)
+    reports, started = {}, False
+    try:
+        started = session.start()
+        if started:
+            session.run(monitor)
     finally:
-        problems = stop([node for node in nodes if node is not dead])
+        reports = session.stop()
         monitor.close()
-    print()
-    if dead is not None:
-        problems.insert(0, (dead, f"{dead.name} ended by itself with exit code {dead.process.returncode}"))
-    for node, problem in problems:
-        print(f"demo: {problem}; its log ({node.log_path}):", file=sys.stderr)
-        print("\n".join("  " + line for line in node.text().splitlines()[-30:]), file=sys.stderr)
-    if problems:
+    if not started and options.record:
+        # Nothing of a device is in it.
+        shutil.rmtree(REPOSITORY / "recordings" / options.name, ignore_errors=True)
+    if session.problems:
+        print("\n".join(session.problems), file=sys.stderr)
         return 1
-    print(summary({node.name: node.closing_report() for node in nodes}, options))
-    return 0
+    if not started:
+        return 0
+    print(summary(plan, reports, options.name if options.record else ""))
+    return 1 if session.lost else 0
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ mod messages;
 mod model;
 mod node;
 mod place;
+mod session_time;
 mod surface;
 
 use std::process::ExitCode;

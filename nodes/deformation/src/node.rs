@@ -11,6 +11,7 @@ use serde_json::json;
 use crate::device::{Device, World};
 use crate::live::InContact;
 use crate::model;
+use crate::session_time::SessionTime;
 use crate::surface::Surface;
 
 /// Longest wait for a pose; how late a signal to end is seen.
@@ -25,6 +26,7 @@ struct Deformation {
     transforms: TransformListener,
     devices: Vec<Device>,
     surface: Surface,
+    time: SessionTime,
     in_contact: InContact,
     mesh_warnings: Vec<String>,
 }
@@ -79,6 +81,7 @@ impl Deformation {
             tissue,
             body_frame,
             surface,
+            time: SessionTime::new(names.len()),
             in_contact,
             mesh_warnings,
         })
@@ -93,11 +96,14 @@ impl Deformation {
             frames: &self.frames,
             body_frame: &self.body_frame,
         };
-        let mut newest_ns = None;
-        for device in &mut self.devices {
-            newest_ns = newest_ns.max(device.turn(&world, kit.log())?);
+        let mut any = false;
+        for (index, device) in self.devices.iter_mut().enumerate() {
+            if let Some(stamp_ns) = device.turn(&world, kit.log())? {
+                self.time.hear(index, stamp_ns);
+                any = true;
+            }
         }
-        if let Some(stamp_ns) = newest_ns {
+        if let Some(stamp_ns) = self.time.now_ns().filter(|_| any) {
             self.in_contact.set(self.devices.iter().any(|device| device.counters().in_contact()));
             let sessions = self.devices.iter().map(Device::session);
             self.surface.step(&self.body, &self.tissue, stamp_ns, sessions)?;
