@@ -7,6 +7,7 @@ use std::io;
 use std::sync::Arc;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
 
 use signal_hook::consts::{SIGABRT, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
 use signal_hook::low_level;
@@ -85,10 +86,13 @@ pub(crate) fn exit_on_panic() {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         prepare();
-        report(panic);
         if FORCED_EXIT.get().is_some_and(|action| (action.unwinds)()) {
+            // Unwinding is what counts now, and a backtrace can take as long as a device's watchdog.
+            let text = panic.to_string();
+            let _ = thread::Builder::new().name("panic".to_owned()).spawn(move || eprintln!("{text}"));
             return;
         }
+        report(panic);
         // _exit: destructors of the middleware must not run while other threads still use it.
         low_level::exit(PANIC_EXIT_CODE);
     }));

@@ -16,10 +16,12 @@ use super::reading::Reader;
 use super::request::{self, Spelling};
 use super::slot::CommandSlot;
 use crate::latest::Sender;
-use crate::{DeviceError, DeviceState, Scheduling, monotonic_ns};
+use crate::{DeviceError, DeviceState, MotorsOff, Scheduling, monotonic_ns};
 
 /// A command that is older moves nothing any more.
 pub(super) const COMMAND_AGE_NS: u64 = 20_000_000;
+/// Longest time between two forces: less than a tick by what the way to the service may differ.
+const LONGEST_GAP_NS: u64 = 15_000_000;
 /// How long there may be no good reading before the device counts as lost.
 const READING_AGE_NS: u64 = 100_000_000;
 /// The same where the thread has not said so: then it is the thread that does not get to run.
@@ -61,8 +63,10 @@ impl Exchange {
         let mut request = String::new();
         let mut good_ns = monotonic_ns();
         let mut held = DVec3::ZERO;
+        let mut gap = Gap::default();
         while !shared.stop.load(Ordering::Acquire) {
-            let force_n = wanted(shared, &mut held);
+            let is_enabled = shared.enabled.load(Ordering::Acquire);
+            let force_n = gap.bridge(wanted(shared, &mut held), is_enabled, monotonic_ns());
             self.write_request(&mut request, force_n);
             let answer = match self.ask(&request, ANSWER) {
                 Ok(answer) => answer,
@@ -76,8 +80,11 @@ impl Exchange {
                 .map_err(|_| "its service answers what is not its own JSON")
                 .and_then(|message| self.reader.state(&message, now_ns, force_n.is_some()));
             match state {
-                Ok(state) => {
+                Ok(mut state) => {
                     good_ns = now_ns;
+                    if gap.is_open {
+                        state.motors_off.get_or_insert(MotorsOff::Watchdog);
+                    }
                     readings.send(state);
                 }
                 Err(reason) if now_ns.saturating_sub(good_ns) >= READING_AGE_NS => {
@@ -112,6 +119,31 @@ impl Exchange {
         let deadline = Instant::now() + within;
         self.line.send(request, deadline)?;
         self.line.receive(deadline)
+    }
+}
+
+/// Between two forces the service's tick may have taken the force away. The next one would be a step, so there is none
+/// until the motors are enabled anew, as with a device that has a watchdog of its own.
+#[derive(Clone, Copy, Debug, Default)]
+struct Gap {
+    forced_ns: Option<u64>,
+    is_open: bool,
+}
+
+impl Gap {
+    /// What of the wanted force goes out at `now_ns`.
+    fn bridge(&mut self, wanted_n: Option<DVec3>, is_enabled: bool, now_ns: u64) -> Option<DVec3> {
+        if !is_enabled {
+            *self = Gap::default();
+            return None;
+        }
+        let is_late = self.forced_ns.is_some_and(|ns| now_ns.saturating_sub(ns) > LONGEST_GAP_NS);
+        self.is_open |= is_late || wanted_n.is_none();
+        let force_n = wanted_n.filter(|_| !self.is_open);
+        if force_n.is_some() {
+            self.forced_ns = Some(now_ns);
+        }
+        force_n
     }
 }
 
@@ -180,4 +212,32 @@ pub(super) fn settle_spelling(
         }
     }
     Ok(guess)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MS: u64 = 1_000_000;
+
+    #[test]
+    fn forces_in_time_go_out_and_after_a_gap_none_does_until_the_motors_are_enabled_anew() {
+        let mut gap = Gap::default();
+        let push = Some(DVec3::Z);
+        assert_eq!(gap.bridge(push, true, 100 * MS), push, "the first one follows nothing");
+        assert_eq!(gap.bridge(push, true, 115 * MS), push);
+        assert_eq!(gap.bridge(push, true, 131 * MS), None, "the tick may have passed");
+        assert!(gap.is_open);
+        assert_eq!(gap.bridge(push, true, 132 * MS), None, "it would be a step");
+        assert_eq!(gap.bridge(None, false, 133 * MS), None);
+        assert_eq!(gap.bridge(push, true, 134 * MS), push);
+    }
+
+    #[test]
+    fn a_motor_loop_that_fell_silent_opens_the_gap() {
+        let mut gap = Gap::default();
+        gap.bridge(Some(DVec3::Z), true, MS);
+        assert_eq!(gap.bridge(None, true, 2 * MS), None);
+        assert_eq!(gap.bridge(Some(DVec3::Z), true, 3 * MS), None);
+    }
 }

@@ -5,7 +5,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use devices::haply::{self, HaplyDevice, Settings};
-use devices::{Device, DeviceState, Wrench};
+use devices::{Device, DeviceState, MotorsOff, Wrench};
 use glam::DVec3;
 
 /// The service as a process.
@@ -89,11 +89,16 @@ pub(crate) fn signal(process: &Child, name: &str) {
     );
 }
 
-/// A motor loop in short: reads and commands once a millisecond.
+/// A motor loop in short: reads and commands once a millisecond. One that this machine kept waiting enables the motors anew.
 pub(crate) fn press(device: &mut HaplyDevice, force_n: DVec3, milliseconds: u32) -> DeviceState {
     let mut state = device.read().unwrap();
     for _ in 0..milliseconds {
         state = device.read().unwrap();
+        if state.motors_off == Some(MotorsOff::Watchdog) {
+            device.disable().unwrap();
+            std::thread::sleep(Duration::from_millis(5));
+            device.enable().unwrap();
+        }
         device.command(&Wrench::of_force(force_n)).unwrap();
         std::thread::sleep(Duration::from_millis(1));
     }
