@@ -20,6 +20,13 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         "The torque on the hand changes no faster than this.",
     ),
     number(
+        "safety.gripper_slew",
+        "N/s",
+        1000.0,
+        Check::Above(0.0),
+        "The gripper's force on the fingers changes no faster than this.",
+    ),
+    number(
         "safety.max_power",
         "W",
         10.0,
