@@ -21,6 +21,12 @@ SLOW = {**SCENE, "device.rate": 200.0}
 # One cycle of press, slide, grasp and pull.
 PERIOD_S = 6.0
 SESSION = {**SLOW, "simulated.period": PERIOD_S}
+# The motors give what is wanted of them: no damping of the passivity controller's, and the shortest ramp.
+AS_COMMANDED = {
+    "safety.engage_ramp": 0.5,
+    "safety.passivity": False,
+    "unsafe.parameters": ["safety.passivity"],
+}
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -114,7 +120,7 @@ def test_with_a_model_the_hand_presses_slides_grasps_and_pulls_and_every_pose_is
     handle = Handle(peer)
     states = peer.heard(ContactState, "contact_state", reliable(1000))
     answers = peer.heard(WrenchStamped, "servo_cf", reliable(1000))
-    driver = start(values={**SESSION, "device.wait_for_readers": 2}).wait_ready()
+    driver = start(values={**SESSION, **AS_COMMANDED, "device.wait_for_readers": 2}).wait_ready()
     peer.spin(PERIOD_S + 1.0)
     code, _ = driver.interrupt()
     assert code == 0, driver.log()
