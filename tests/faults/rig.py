@@ -3,7 +3,9 @@
 import itertools
 import os
 import subprocess
+import tempfile
 import time
+from pathlib import Path
 
 from crtk_msgs.msg import OperatingState, StringStamped
 
@@ -16,6 +18,7 @@ from record import Record
 SCENE_FROM_DEVICE = [0.011, 0.007, 0.06, 0.0, 0.0, 0.0, 1.0]
 FREE, PRESSED = "0,0,0.01", "0,0,-0.03"
 PRESSING_N = 1.0
+MEMORY = Path("/dev/shm")
 # Some newtons in this body under this hand.
 STIFF = {"chains.normal_stiffness": [2000.0], "chains.tangential_stiffness": [400.0]}
 # Without these two rules a run takes a fraction of a second: a device that comes back under the pressing hand gets its
@@ -47,10 +50,13 @@ class Double:
 
     def __init__(self, backend, folder, hand):
         folder.mkdir(parents=True, exist_ok=True)
-        self.record_path = folder / "record.csv"
+        # In memory: a device waits for no disk. And with a short name, because a Unix socket comes into it.
+        self.memory = tempfile.TemporaryDirectory(dir=MEMORY if MEMORY.is_dir() else None)
+        self.record_path = Path(self.memory.name) / "record.csv"
+        sdk = self.memory.name
         program, options, self.values = {
             "serial": ("serial_double", ["--link", folder / "tty"], {"serial.port": str(folder / "tty")}),
-            "force_dimension": ("force_dimension_double", ["--sdk", folder], {"force_dimension.sdk": str(folder)}),
+            "force_dimension": ("force_dimension_double", ["--sdk", sdk], {"force_dimension.sdk": sdk}),
             "haply": ("haply_double", [], {"haply.max_force": 20.0}),
         }[backend]
         self.values["device.backend"] = backend
@@ -70,6 +76,7 @@ class Double:
     def close(self):
         self.process.terminate()
         self.process.communicate(timeout=TIMEOUT_S)
+        self.memory.cleanup()
 
 
 class Rig:
@@ -140,6 +147,11 @@ class Rig:
             last = self.record.lines[-1]
             assert time.monotonic() < end, f"not within {timeout_s} s of {since_ns}: {last}\n{self.driver.log()}"
             time.sleep(0.005)
+
+    def check_device(self, lines):
+        """The device's watchdog acts where nothing was done to the driver when the machine is too busy to be one."""
+        if any(line.event == "watchdog" for line in lines):
+            raise NotPressing("the machine was too busy for the device")
 
     def state(self):
         """The operating state last heard."""

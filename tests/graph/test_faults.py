@@ -1,6 +1,7 @@
 """What a pressing hand feels when something dies, hangs, panics, is unplugged or talks nonsense: judged by the record of
 what reached the motors. A few runs of each kind; `tests/faults/measure.py` makes hundreds of them."""
 
+import functools
 import math
 import random
 import signal
@@ -19,7 +20,7 @@ import faults
 import peer as graph
 from faults import ROUNDING_N, SLACK_MS, SLEW_STEP_N
 from peer import MS, Peer, reliable
-from rig import PRESSING_N, QUICK, Rig
+from rig import PRESSING_N, QUICK, NotPressing, Rig
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -37,13 +38,32 @@ def press(tmp_path):
 
     def press(**options):
         peer = Peer()
-        rigs.append(Rig(peer, tmp_path / str(len(rigs)), **{"values": QUICK, **options}))
+        try:
+            rigs.append(Rig(peer, tmp_path / str(len(rigs)), **{"values": QUICK, **options}))
+        except NotPressing:
+            peer.close()
+            raise
         return rigs[-1]
 
     yield press
     for rig in rigs:
         rig.close()
         rig.peer.close()
+
+
+def busy_machine(test):
+    """Runs a test again, twice at most, when the machine was too busy to be the device before anything was broken."""
+
+    @functools.wraps(test)
+    def again(*arguments, **options):
+        for _ in range(2):
+            try:
+                return test(*arguments, **options)
+            except NotPressing as reason:
+                print(f"again, because {reason}")
+        return test(*arguments, **options)
+
+    return again
 
 
 def check(rig, fault, times=1):
@@ -55,6 +75,7 @@ def check(rig, fault, times=1):
 
 
 @pytest.mark.parametrize("backend", ["serial", "force_dimension", "haply"])
+@busy_machine
 def test_the_devices_own_watchdog_takes_the_force_of_a_driver_that_stands_still(press, backend):
     rig = press(backend=backend)
     for fault in faults.DRIVER_STANDS_STILL:
@@ -62,6 +83,7 @@ def test_the_devices_own_watchdog_takes_the_force_of_a_driver_that_stands_still(
 
 
 @pytest.mark.parametrize("source", ["contact_law", "servo_cf"])
+@busy_machine
 def test_force_that_nobody_renews_falls_and_comes_back_without_a_step(press, source):
     rig = press(values={**QUICK, "device.force_source": source})
     for fault in [*faults.DRIVER_IN_PARTS, *faults.MODEL_STANDS_STILL]:
@@ -69,6 +91,7 @@ def test_force_that_nobody_renews_falls_and_comes_back_without_a_step(press, sou
     check(rig, faults.MODEL_ENDS[0])
 
 
+@busy_machine
 def test_a_driver_that_ends_lets_the_force_fall_first(press):
     rig = press()
     for fault in faults.DRIVER_ENDS:
@@ -78,6 +101,7 @@ def test_a_driver_that_ends_lets_the_force_fall_first(press):
 
 
 @pytest.mark.parametrize("fault", faults.DRIVER_PANICS, ids=lambda fault: fault.name)
+@busy_machine
 def test_a_panic_in_any_thread_of_the_driver_switches_the_motors_off(press, fault):
     rig = press(driver=fault.driver)
     result = faults.run(rig, fault)
@@ -87,27 +111,34 @@ def test_a_panic_in_any_thread_of_the_driver_switches_the_motors_off(press, faul
     assert events[-1] == "off", events[-5:]
 
 
+@busy_machine
 def test_a_ros_thread_that_does_not_come_back_is_a_fault(press):
     rig = press()
     rig.wait_pressing()
     strike, end = faults.hang("driver")(rig)
     begin_ns = strike()
-    time.sleep(1.4)
-    off = next(line for line in rig.record.since(begin_ns) if line.event == "off")
+    try:
+        time.sleep(1.4)
+    finally:
+        end()
+    lines = rig.record.since(begin_ns)
+    rig.check_device(lines)
+    off = next(line for line in lines if line.event == "off")
     # safety.ros_timeout is 1 s; the last beat was at most a turn of the node earlier.
     assert 0.95e9 < off.t_ns - begin_ns < 1.1e9
-    end()
     rig.peer.wait_for(lambda: rig.state() == "FAULT", "the fault is told")
     rig.enable()
     assert rig.wait_pressing() >= PRESSING_N
 
 
 @pytest.mark.parametrize("fault", faults.BYSTANDERS, ids=lambda fault: fault.name)
+@busy_machine
 def test_who_only_listens_may_die(press, fault):
     result = faults.stand_by(press(), fault)
     assert faults.holds(result, fault), result
 
 
+@busy_machine
 def test_unplugged_is_a_fault_and_plugged_in_again_it_presses_by_command(press):
     rig = press()
     for _ in range(2):
@@ -126,6 +157,7 @@ def test_unplugged_is_a_fault_and_plugged_in_again_it_presses_by_command(press):
     assert rig.record.largest_step_n <= SLEW_STEP_N + ROUNDING_N
 
 
+@busy_machine
 def test_the_contact_law_and_the_topic_loop_press_with_the_same_force(press):
     # With the rules as shipped: the hand is free first, and the force grows for two seconds.
     forces_n = []
@@ -170,6 +202,7 @@ def storm_message(dice, now_ns, count):
     return message
 
 
+@busy_machine
 def test_a_storm_of_broken_commands_never_exceeds_clamp_or_slew(press):
     values = {**QUICK, "device.force_source": "servo_cf", "device.max_force": MAX_FORCE_N, "device.max_torque": MAX_TORQUE_N_M}
     rig = press(values=values, model=None)
@@ -180,12 +213,14 @@ def test_a_storm_of_broken_commands_never_exceeds_clamp_or_slew(press):
     count = 100_000
     for i in range(count):
         publisher.publish(storm_message(dice, time.time_ns(), i))
+        if i % 5000 == 0 and rig.state() == "FAULT":
+            rig.enable()
     lines = rig.record.since(begin_ns)
     assert len(lines) > 1000, "a second of periods and more"
     torques = [math.hypot(*line.torque) for line in lines]
     assert max(line.size_n for line in lines) <= MAX_FORCE_N + ROUNDING_N
     assert max(torques) <= MAX_TORQUE_N_M + ROUNDING_N
-    assert faults.largest_step_n(lines) <= SLEW_STEP_N + ROUNDING_N
+    assert faults.largest_commanded_step_n(lines) <= SLEW_STEP_N + ROUNDING_N
     assert all(math.isfinite(number) for line in lines for number in (*line.force, *line.torque, line.grip_n))
     assert max(line.size_n for line in lines) > 0.9 * MAX_FORCE_N, "the storm pushed at the clamp"
 
