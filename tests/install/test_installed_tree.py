@@ -13,7 +13,10 @@ from ament_index_python.packages import get_package_prefix, get_package_share_di
 REPOSITORY = Path(__file__).resolve().parents[2]
 EXECUTABLES = ["bag_replay", "deformation", "haptic_device", "rhombus", "visualization"]
 LAUNCH_FILES = ["session.launch.xml", "replay.launch.xml"]
-SESSION_ARGUMENTS = ["device", "scene", "mesh", "namespace", "record", "rviz", "use_sim_time", "log_level"]
+SESSION_ARGUMENTS = [
+    *("device", "serial", "second_device", "second_serial", "device_config"),
+    *("scene", "mesh", "namespace", "record", "rviz", "use_sim_time", "log_level"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -63,6 +66,18 @@ def test_the_session_launch_file_has_the_documented_arguments(prefix):
     share = Path(get_package_share_directory("rhombus_haptics"))
     root = ElementTree.parse(share / "launch" / "session.launch.xml").getroot()
     assert [argument.get("name") for argument in root.iter("arg")] == SESSION_ARGUMENTS
+
+
+def test_the_session_launch_file_offers_every_backend_for_both_devices(prefix):
+    rhombus = prefix / "lib" / "rhombus_haptics" / "rhombus"
+    listing = subprocess.run([rhombus, "parameters", "--json"], capture_output=True, text=True, check=True)
+    accepted = next(row["accepted"] for row in yaml.safe_load(listing.stdout) if row["name"] == "device.backend")
+    backends = re.findall(r'"(\w+)"', accepted)
+    assert len(backends) == 5
+    root = ElementTree.parse(REPOSITORY / "launch" / "session.launch.xml").getroot()
+    for name, none in (("device", []), ("second_device", [""])):
+        argument = next(each for each in root.iter("arg") if each.get("name") == name)
+        assert [choice.get("value") for choice in argument.iter("choice")] == none + backends
 
 
 def test_every_parameter_in_the_launch_files_is_one_that_the_nodes_know(prefix):

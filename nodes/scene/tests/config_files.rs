@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use rhombus_chain::{ContactShape, Formulation, SurfacePoint};
-use scene::{Reader, Scene};
+use scene::{Parameters, Reader, Scene};
 
 fn config() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config")
@@ -78,6 +78,24 @@ fn scenes_have_the_tissue_their_comments_name() {
     assert_eq!(read("liver.yaml").chains, read("tissues/liver.yaml").chains);
     assert_eq!(read("block.yaml").chains, read("tissues/muscle.yaml").chains);
     assert_eq!(read("nodule.yaml").chains, read("liver.yaml").chains);
+    assert_eq!(read("two_hands.yaml").chains, read("liver.yaml").chains);
+}
+
+#[test]
+fn the_two_hands_stand_on_both_sides_of_the_liver_and_only_they_say_where() {
+    let file = config().join("two_hands.yaml");
+    let scene = read("two_hands.yaml");
+    assert_eq!(scene.session.devices, ["left", "right"]);
+    assert!(!scene.parameters().is_given("device.scene_from_device"));
+    assert_eq!(
+        Parameters::drivers_in_file(&file).expect("accepted"),
+        ["/left/haptic_device", "/right/haptic_device"]
+    );
+    let base = |name| {
+        let driver = Scene::from_file(&file, Reader::Node(name)).expect("accepted");
+        driver.device.scene_from_device.translation.x
+    };
+    assert_eq!((base("/left/haptic_device"), base("/right/haptic_device")), (-0.2, 0.2));
 }
 
 #[test]
