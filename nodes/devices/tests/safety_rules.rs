@@ -3,7 +3,7 @@
 
 mod safety_support;
 
-use devices::safety::{FaultCause, LimitsHit, SafetyLayer};
+use devices::safety::{FaultCause, LimitsHit, SafetyLayer, SafetySettings};
 use devices::source::ForceOrigin;
 use devices::{DeviceLimits, DeviceState, Wrench};
 use glam::DVec3;
@@ -371,4 +371,21 @@ fn the_energy_of_periods_without_a_reading_is_counted_with_the_next_one() {
     let before_j = rig.layer.energy().given_j;
     rig.step(Ask { state: moving(DVec3::X * 0.004, DVec3::X), ..Ask::default() });
     assert!((rig.layer.energy().given_j - before_j - 0.001 * (5.5 + 3.5 + 1.5)).abs() < 1e-9);
+}
+
+#[test]
+fn a_client_may_guide_a_hand_and_a_contact_law_may_not() {
+    let guided = |settings: SafetySettings, origin| {
+        let mut rig = Rig::engaged(settings.checked(&[]).unwrap(), still(DVec3::ZERO));
+        let pull = |i: u32| Ask {
+            origin,
+            state: moving(DVec3::X * (1e-5 * f64::from(i)), DVec3::X * 0.01),
+            ..Ask::force(DVec3::X)
+        };
+        (0..2000).map(|i| rig.step(pull(i))).last().unwrap().force_n().x
+    };
+    let default = SafetySettings::default();
+    assert_eq!(guided(default, ForceOrigin::ServoForce), 1.0);
+    assert!(guided(default, ForceOrigin::ContactLaw) < 0.1);
+    assert!(guided(SafetySettings { servo_passivity: true, ..default }, ForceOrigin::ServoForce) < 0.1);
 }

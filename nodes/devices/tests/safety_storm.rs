@@ -148,7 +148,9 @@ struct Tally {
 fn storm(seed: u64, ticks: usize, passivity: bool) -> Tally {
     let mut dice = Dice(seed);
     let names = if passivity { vec![] } else { vec!["safety.passivity".to_owned()] };
-    let settings = SafetySettings { passivity, ..SafetySettings::default() }.checked(&names).unwrap();
+    let settings = SafetySettings { passivity, servo_passivity: true, ..SafetySettings::default() }
+        .checked(&names)
+        .unwrap();
     let rate_hz = [1000.0, 4000.0, 500.0][dice.below(3) as usize];
     let (period_s, period_ns) = (1.0 / rate_hz, (1e9 / rate_hz) as u64);
     let mut layer = SafetyLayer::new(&settings, &LIMITS, period_s);

@@ -41,6 +41,7 @@ fn safety_settings(scene: &Scene) -> Result<SafetySettings> {
         law_validity_s: parameters.double("safety.law_validity")?,
         decay_s: parameters.double("safety.decay")?,
         passivity: parameters.bool("safety.passivity")?,
+        servo_passivity: parameters.bool("safety.servo_passivity")?,
         workspace_margin_m: parameters.double("safety.workspace_margin")?,
         ros_timeout_s: parameters.double("safety.ros_timeout")?,
     })

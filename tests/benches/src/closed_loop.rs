@@ -207,7 +207,7 @@ impl Topics {
 
 fn settings(passivity: bool) -> Result<CheckedSettings> {
     let names = if passivity { vec![] } else { vec!["safety.passivity".to_owned()] };
-    Ok(SafetySettings { passivity, ..SafetySettings::default() }.checked(&names)?)
+    Ok(SafetySettings { passivity, servo_passivity: true, ..SafetySettings::default() }.checked(&names)?)
 }
 
 /// Above the floor until the force is engaged, then down to the intent, and there it stays.

@@ -45,8 +45,16 @@ pub(super) struct EnergyObserver {
 
 impl EnergyObserver {
     /// A new reading, `elapsed_s` after the one before; `held` was commanded all the time in between, and `kept` is what
-    /// the controller had taken out of it. RT safe.
-    pub(super) fn observe(&mut self, held: &Wrench, kept: &Wrench, state: &DeviceState, elapsed_s: f64) {
+    /// the controller had taken out of it. What is not `controlled`, because its source may be active, is summed up for
+    /// people and owed by nobody. RT safe.
+    pub(super) fn observe(
+        &mut self,
+        held: &Wrench,
+        kept: &Wrench,
+        controlled: bool,
+        state: &DeviceState,
+        elapsed_s: f64,
+    ) {
         if let Some(before) = self.before
             && state.motors_off.is_none()
         {
@@ -55,7 +63,9 @@ impl EnergyObserver {
             let energy_j = |wrench: &Wrench| wrench.force_n.dot(moved) + wrench.torque_n_m.dot(turned);
             self.energy.given_j += energy_j(held);
             self.energy.dissipated_j += energy_j(kept);
-            self.owed_j += energy_j(held);
+            if controlled {
+                self.owed_j += energy_j(held);
+            }
         }
         self.before = Some(state.pose);
         if self.owed_j < 0.0 && state.linear_velocity_m_per_s.length() < STILL_M_PER_S {

@@ -9,7 +9,7 @@ use super::vector::sum;
 use super::velocity_guard::VelocityGuard;
 use super::workspace_edge::WorkspaceEdge;
 use super::{CheckedSettings, FaultCause, LimitsHit, finite, power};
-use crate::source::Wanted;
+use crate::source::{ForceOrigin, Wanted};
 use crate::{DeviceLimits, DeviceState, Wrench};
 
 /// Without a reading for longer than this the engage gate closes, s.
@@ -45,6 +45,9 @@ pub struct SafetyLayer {
     applied: Wrench,
     /// What the passivity controller took out of it.
     kept: Wrench,
+    /// Whether it comes from a source that the passivity controller acts on.
+    controlled: bool,
+    servo_passivity: bool,
 }
 
 /// How long a period was.
@@ -74,6 +77,8 @@ impl SafetyLayer {
             blind_impulse: Wrench::ZERO,
             applied: Wrench::ZERO,
             kept: Wrench::ZERO,
+            controlled: true,
+            servo_passivity: settings.servo_passivity,
         }
     }
 
@@ -90,7 +95,8 @@ impl SafetyLayer {
         let mut hit = LimitsHit::NONE;
         hit.insert_if(wanted.refused, LimitsHit::NOT_FINITE);
         let held = self.held(elapsed_s);
-        self.energy.observe(&held, &self.kept, state, elapsed_s);
+        self.energy.observe(&held, &self.kept, self.controlled, state, elapsed_s);
+        self.controlled = self.controls(wanted.origin);
         let fault = self.guard(state, permits_force, elapsed_s);
 
         let mut target = finite::or_nothing(wanted.wrench, &mut hit);
@@ -101,7 +107,9 @@ impl SafetyLayer {
             target = self.clamp.apply(target, &mut hit);
             target = self.edge.apply(target, state, &mut hit);
             let before = target;
-            target = self.passivity.apply(target, state, &self.energy, share, &mut hit);
+            if self.controlled {
+                target = self.passivity.apply(target, state, &self.energy, share, &mut hit);
+            }
             self.kept = sum(&before, &target, -1.0);
             target = power::limited(target, state, self.max_power_w, &mut hit);
             target = self.clamp.apply(target, &mut hit);
@@ -158,6 +166,16 @@ impl SafetyLayer {
         self.blind_s = 0.0;
         self.blind_impulse = Wrench::ZERO;
         held
+    }
+
+    /// Commanded wrenches may be meant to guide a hand, and then give it energy.
+    fn controls(&self, origin: ForceOrigin) -> bool {
+        match origin {
+            ForceOrigin::ContactLaw | ForceOrigin::Hold => true,
+            ForceOrigin::ServoForce => self.servo_passivity,
+            // What is still held is the rest of the source before.
+            ForceOrigin::Nobody => self.controlled,
+        }
     }
 
     fn elapsed(&mut self, now_ns: u64) -> Elapsed {

@@ -153,8 +153,8 @@ mod tests {
     fn deficit() -> EnergyObserver {
         let mut energy = EnergyObserver::default();
         let held = Wrench::of_force(DVec3::X * 10.0);
-        energy.observe(&held, &Wrench::ZERO, &at(0.0, DVec3::ZERO), 1e-3);
-        energy.observe(&held, &Wrench::ZERO, &at(0.01, DVec3::ZERO), 1e-3);
+        energy.observe(&held, &Wrench::ZERO, true, &at(0.0, DVec3::ZERO), 1e-3);
+        energy.observe(&held, &Wrench::ZERO, true, &at(0.01, DVec3::ZERO), 1e-3);
         energy
     }
 

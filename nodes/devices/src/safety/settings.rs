@@ -31,8 +31,11 @@ pub struct SafetySettings {
     pub law_validity_s: f64,
     /// Time in which the force of a source that is no longer valid falls to nothing, s (`safety.decay`).
     pub decay_s: f64,
-    /// Whether the passivity controller acts (`safety.passivity`). Energy is observed either way.
+    /// Whether the passivity controller acts on the contact law and on holding (`safety.passivity`). Energy is observed
+    /// either way.
     pub passivity: bool,
+    /// Whether it also acts on commanded wrenches (`safety.servo_passivity`), which then cannot guide or pull a hand.
+    pub servo_passivity: bool,
     /// Over this distance to the edge of the workspace outward force fades, m (`safety.workspace_margin`).
     pub workspace_margin_m: f64,
     /// A ROS thread that was silent for this long is a fault, s (`safety.ros_timeout`).
@@ -57,6 +60,7 @@ impl Default for SafetySettings {
             law_validity_s: 0.1,
             decay_s: 0.03,
             passivity: true,
+            servo_passivity: false,
             workspace_margin_m: 0.005,
             ros_timeout_s: 1.0,
         }

@@ -79,7 +79,12 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
     switch(
         "safety.passivity",
         true,
-        "Take energy out, by damping, when the motors have given the hand more than it has put in.",
+        "The contact law and a hold give the hand no more energy than it has put in; damping takes out the rest.",
+    ),
+    switch(
+        "safety.servo_passivity",
+        false,
+        "The same for commanded wrenches, which then cannot guide or pull a hand: for a contact that is answered late.",
     ),
     number(
         "safety.workspace_margin",
