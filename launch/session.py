@@ -66,7 +66,11 @@ class NodeProcess:
             self.process.kill()
             self.process.wait()
             return self.problem(f"did not stop within {timeout_s:.0f} s of SIGINT and was killed")
-        return self.problem(f"ended with exit code {self.process.returncode}") if self.process.returncode else None
+        code = self.process.returncode
+        # Before a node is ready the signal may come before its handler.
+        if code == 0 or (code == -signal.SIGINT and not self.is_ready()):
+            return None
+        return self.problem(f"ended with exit code {code}")
 
     def problem(self, what):
         """For people: the errors that the node logged; without any, what happened and the end of its log."""

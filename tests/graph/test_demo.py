@@ -142,6 +142,15 @@ def test_a_device_that_is_not_there_is_the_drivers_sentence_and_nothing_is_left(
     assert not (REPOSITORY / "recordings" / name).exists(), "nothing was recorded"
 
 
+def test_a_scene_whose_sections_are_of_another_namespace_is_the_drivers_sentence(name):
+    scene = REPOSITORY / "config" / "two_hands.yaml"
+    result = run("--scene", scene, "--namespace", "or1", "--record", name)
+    assert result.returncode == 1
+    said = [line for line in result.stderr.splitlines() if line.startswith("demo: ")]
+    assert said and all(line.split(": ")[1] in ("left", "right") for line in said), result.stderr
+    assert "section /left/haptic_device would be ignored by /or1/left/haptic_device" in result.stderr
+
+
 def test_two_hands_are_in_the_summary_and_in_the_recording(name):
     scene = REPOSITORY / "config" / "two_hands.yaml"
     result = run("--scene", scene, "--set", "device.rate=200", "--duration", "8", "--record", name)
