@@ -20,6 +20,7 @@ use crate::outbox::Outbox;
 use crate::publisher::{Exchange, PublisherThread, lock};
 use crate::report::Health;
 use crate::shared::Shared;
+use crate::standing::Standing;
 use crate::wrench_frame::DeviceFrames;
 
 /// Samples that the publisher may be behind before some are lost: 1 s at 4 kHz.
@@ -50,6 +51,7 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
         body_is_absolute: Arc::new(AtomicBool::new(scene.device.body_cf_absolute)),
         exchange: Arc::new(Mutex::new(Exchange::new(pose_period_ns))),
     };
+    let _standing = Standing::new(kit, &scene, &shared.frames.base)?;
     let outbox = Outbox::new(kit, &shared, clutch_button, pose_is_due)?;
     let desk = Desk::new(kit, &shared, can_carry_itself)?;
     let forces = Forces::new(kit, &shared, &scene, &settings.safety)?;

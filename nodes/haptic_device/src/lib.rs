@@ -26,6 +26,7 @@ mod report;
 mod shared;
 mod sources;
 mod stability_watch;
+mod standing;
 mod wrench_frame;
 
 use anyhow::Result;
