@@ -15,8 +15,8 @@ impl Standing {
     /// `base` is the frame of the device's poses.
     pub(crate) fn new(kit: &mut NodeKit, scene: &Scene, base: &str) -> Result<Standing> {
         let scene_frame = kit.frame_id_of_session(&scene.session.devices, &scene.session.scene_frame_id);
-        let is_ours =
-            !scene.device.frame_id.starts_with('/') || scene.parameters().is_given("device.scene_from_device");
+        let is_ours = !scene.device.frame_id.starts_with('/')
+            || scene.parameters().is_given("device.scene_from_device");
         if !is_ours || scene_frame == base {
             return Ok(Standing { _publisher: None });
         }
