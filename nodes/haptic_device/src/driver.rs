@@ -6,7 +6,9 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
-use devices::{Backend, Device, DeviceError, MotorError, MotorLoop, MotorSettings, SampleSender, samples};
+use devices::{
+    Backend, Device, DeviceError, MotorError, MotorLoop, MotorSettings, SampleSender, Scheduling, samples,
+};
 use node_kit::NodeKit;
 use scene::{Scene, Value};
 
@@ -64,7 +66,7 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
     let publisher = PublisherThread::start(outbox, receiver, shared.exchange.clone(), kit.log().clone())
         .context("the publisher thread did not start")?;
     let motor = start_motor(device, backend, settings, sender)?;
-    kit.log().info(&format!("motor loop: {}", motor.scheduling()));
+    tell_scheduling(kit, motor.scheduling());
     let Shared { description, frames, .. } = &shared;
     kit.ready(&format!(
         "{} ({}) at {} Hz in frame {}",
@@ -170,6 +172,12 @@ fn start_motor(
         None => backend.open(),
     };
     MotorLoop::start(opener, settings, samples)
+}
+
+/// What the operating system granted the motor loop; what it refused is worth a warning.
+fn tell_scheduling(kit: &NodeKit, scheduling: &Scheduling) {
+    let text = format!("motor loop: {scheduling}");
+    if scheduling.is_granted() { kit.log().info(&text) } else { kit.log().warn(&text) }
 }
 
 /// Sets the gravity compensation; false for a device that has none.
