@@ -174,5 +174,12 @@ class Rig:
 
     def close(self):
         for program in self.programs:
-            program.kill()
+            # Who is killed cannot say goodbye, and is taken for alive by the others for a while.
+            if program.process.poll() is None:
+                program.process.terminate()
+        for program in self.programs:
+            try:
+                program.process.wait(5.0)
+            except subprocess.TimeoutExpired:
+                program.kill()
         self.double.close()
