@@ -243,4 +243,5 @@ def test_a_storm_of_broken_commands_never_exceeds_clamp_or_slew(press):
     code, _ = rig.driver.interrupt()
     assert code == 0, rig.driver.log()
     report = rig.driver.closing_report()
-    assert report["rejected"] > 1000 and report["untimely"] > 1000, report
+    # Of seven broken kinds three are out of time, one has another frame and one is often not finite: they all arrived.
+    assert report["untimely"] > 0.36 * count and report["rejected"] > 0.11 * count, report
