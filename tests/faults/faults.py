@@ -29,6 +29,7 @@ SERVO_MS = 20.0 + 30.0
 END_MS = 10.0 + 10.0
 # The message that tells the driver to panic may take so long on a busy machine.
 DELIVERY_MS = 200.0
+PERIOD_NS = 1_000_000
 SLEW_STEP_N = 2.0  # safety.slew, 2000 N/s, in a period of 1 ms
 ROUNDING_N = 1e-4  # the serial line carries single precision
 UNCHANGED_N = 0.1
@@ -255,9 +256,17 @@ def largest_step_n(lines):
 
 
 def largest_commanded_step_n(lines):
-    """What the device does by itself is no step of the driver's."""
-    pairs = [(before, line) for before, line in zip(lines, lines[1:]) if line.event == "command"]
-    return max((change_n(before, line) for before, line in pairs), default=0.0)
+    """The largest step, by the periods since the device heard something before. What the device does by itself is no step of
+    the driver's; and a line that was held up keeps the newest command only, which may be as far from the last one that came
+    as those in between would have brought it."""
+    largest_n, earlier_ns = 0.0, None
+    for before, line in zip(lines, lines[1:]):
+        if line.t_ns > before.t_ns:
+            earlier_ns = before.t_ns
+        if line.event == "command" and earlier_ns is not None:
+            periods = max(1, round((line.t_ns - earlier_ns) / PERIOD_NS))
+            largest_n = max(largest_n, change_n(before, line) / periods)
+    return largest_n
 
 
 def holds(result, fault):

@@ -34,15 +34,13 @@ def change_n(before, after):
 
 
 class Record:
-    """A growing record. Keeps its lines, the largest force and the largest step between two commands."""
+    """A growing record."""
 
     def __init__(self, path):
         self.file = path.open()
         self.rest = ""
         self.lines = []
         self.header_is_read = False
-        self.largest_n = 0.0
-        self.largest_step_n = 0.0
 
     def read(self):
         """Takes in what is new; all lines so far."""
@@ -52,11 +50,7 @@ class Record:
             self.header_is_read = True
             complete = complete[1:]
         for row in complete:
-            line = parse(row)
-            self.largest_n = max(self.largest_n, line.size_n)
-            if line.event == "command" and self.lines:
-                self.largest_step_n = max(self.largest_step_n, change_n(self.lines[-1], line))
-            self.lines.append(line)
+            self.lines.append(parse(row))
         return self.lines
 
     def since(self, t_ns):
@@ -68,7 +62,7 @@ class Record:
         return lines[begin:]
 
     def forget(self, t_ns):
-        """Lets go of lines before a time; what was largest stays known."""
+        """Lets go of lines before a time."""
         self.lines = self.since(t_ns) or self.lines[-1:]
 
     def force_n(self):
