@@ -48,6 +48,7 @@ pub trait Device: Send {
     fn disable(&mut self) -> Result<(), DeviceError>;
 
     /// Finds the device's reference position. May take seconds and move the handle; never called with a force commanded.
+    /// Nothing else is served meanwhile, and it cannot be interrupted.
     ///
     /// # Errors
     /// What the device says.

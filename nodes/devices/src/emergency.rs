@@ -10,23 +10,21 @@ use crate::realtime::{monotonic_ns, sleep_until};
 static STOP: AtomicBool = AtomicBool::new(false);
 static RUNNING: AtomicUsize = AtomicUsize::new(0);
 
-/// Longest wait for the loops: the force is at zero after a few periods, and the device's own watchdog would have acted.
-const PATIENCE_NS: u64 = 100_000_000;
+/// Longest wait for the loops: a period of the slowest, and the longest way of the force to zero.
+const PATIENCE_NS: u64 = 700_000_000;
 
 thread_local! {
     static IS_MOTOR_LOOP: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Ends every motor loop of this process: forces to zero, motors off; waits for that, at most 100 ms. Takes no lock and
-/// allocates nothing, so that a signal handler may call it. In a motor loop's own thread it does nothing: unwinding
-/// takes the force away there.
+/// Ends every motor loop of this process: forces to zero, motors off; waits for that, at most 700 ms. Takes no lock and
+/// allocates nothing, so that a signal handler may call it. A motor loop's own thread waits for the others only:
+/// unwinding takes its own force away.
 pub fn motors_off_at_once() {
     STOP.store(true, SeqCst);
-    if IS_MOTOR_LOOP.get() {
-        return;
-    }
+    let own = usize::from(IS_MOTOR_LOOP.get());
     let give_up_ns = monotonic_ns() + PATIENCE_NS;
-    while RUNNING.load(SeqCst) > 0 && monotonic_ns() < give_up_ns {
+    while RUNNING.load(SeqCst) > own && monotonic_ns() < give_up_ns {
         sleep_until(monotonic_ns() + 200_000);
     }
 }

@@ -154,6 +154,11 @@ impl MotorLoop {
         self.asker.ask(request)
     }
 
+    /// The emergency stop is pressed, or released. Seen by the loop in its next period, whatever else it was asked.
+    pub fn set_emergency_stop(&self, pressed: bool) {
+        self.shared.emergency_stop.store(pressed, Relaxed);
+    }
+
     /// Says that the owner lives. To be called more often than [`SafetySettings::ros_timeout_s`].
     pub fn beat(&self) {
         self.shared.beat(monotonic_ns());

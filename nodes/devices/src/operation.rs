@@ -2,6 +2,7 @@
 //! what a request asks of the device itself.
 
 use std::sync::Arc;
+use std::sync::atomic::Ordering::Relaxed;
 
 use crate::requests::Askee;
 use crate::safety::{FaultCause, FaultLatch};
@@ -32,6 +33,8 @@ pub(crate) struct Operation {
     is_homed: bool,
     is_busy: bool,
     home: bool,
+    /// Whether the force begins from nothing in the next period.
+    begins_anew: bool,
     /// Whether the device's motors are on, as far as this loop has switched them.
     motors_on: bool,
     enabled_ns: u64,
@@ -54,6 +57,7 @@ impl Operation {
             is_homed: false,
             is_busy: false,
             home: false,
+            begins_anew: false,
             motors_on: false,
             enabled_ns: 0,
             unusable: 0,
@@ -89,8 +93,12 @@ impl Operation {
         mut device: Option<&mut (dyn Device + 'static)>,
         now_ns: u64,
     ) -> Result<(), DeviceError> {
-        while let Some(request) = self.requests.take() {
-            let done = self.execute(request, device.as_deref_mut(), now_ns);
+        self.watch_emergency_stop();
+        while let Some((request, is_given_up)) = self.requests.take(now_ns) {
+            // Whoever asked was told that nothing came of it; only what takes force away is still done.
+            let is_refused = is_given_up && request != Request::State(StateCommand::Disable);
+            let done =
+                if is_refused { Ok(false) } else { self.execute(request, device.as_deref_mut(), now_ns) };
             self.publish();
             let state = self.operating;
             let is_accepted = matches!(done, Ok(true));
@@ -122,13 +130,14 @@ impl Operation {
                     None => Ok(false),
                 }
             }
-            Request::EmergencyStop(pressed) => {
-                self.emergency_stop = pressed;
-                if pressed {
-                    self.raise(FaultCause::EmergencyStop);
-                }
-                Ok(true)
-            }
+        }
+    }
+
+    fn watch_emergency_stop(&mut self) {
+        let pressed = self.shared.emergency_stop.load(Relaxed);
+        let was_pressed = std::mem::replace(&mut self.emergency_stop, pressed);
+        if pressed && (!was_pressed || self.operating.has_motors_on()) {
+            self.raise(FaultCause::EmergencyStop);
         }
     }
 
@@ -161,10 +170,14 @@ impl Operation {
                 }
                 self.faults = FaultLatch::default();
                 self.mode = SourceMode::Follow;
+                self.begins_anew |= self.operating != OperatingState::Enabled;
             }
-            StateCommand::Resume => self.mode = SourceMode::Follow,
+            StateCommand::Resume => (self.mode, self.begins_anew) = (SourceMode::Follow, true),
             // Allowed whatever is wrong; what is wrong then keeps the motors from being enabled.
-            StateCommand::Disable => self.faults = FaultLatch::default(),
+            StateCommand::Disable => {
+                self.faults = FaultLatch::default();
+                (self.home, self.is_busy) = (false, false);
+            }
             StateCommand::Pause => {}
             StateCommand::Home => {
                 let Some(device) = device else { return Ok(false) };
@@ -262,6 +275,16 @@ impl Operation {
     pub(crate) fn find_device(&mut self) {
         self.has_device = true;
         self.publish();
+    }
+
+    /// Whether the force shall begin anew. True once.
+    pub(crate) fn take_begins_anew(&mut self) -> bool {
+        std::mem::take(&mut self.begins_anew)
+    }
+
+    /// Whether homing waits for the force to go.
+    pub(crate) fn wants_homing(&self) -> bool {
+        self.home
     }
 
     /// Whether somebody wants the device homed. True once.
@@ -431,8 +454,8 @@ mod tests {
         let mut bench = bench();
         bench.ask(Enable);
         let stop = |bench: &mut Bench, pressed| {
-            let request = Request::EmergencyStop(pressed);
-            assert!(bench.operation.execute(request, Some(&mut bench.motors), 0).unwrap());
+            bench.shared.emergency_stop.store(pressed, Relaxed);
+            bench.operation.serve(Some(&mut bench.motors), 0).unwrap();
         };
         stop(&mut bench, true);
         assert_eq!(bench.operation.fault(), Some(FaultCause::EmergencyStop));
@@ -518,6 +541,12 @@ mod tests {
         bench.operation.publish();
         assert!(bench.shared.status().is_busy);
         assert!(bench.operation.take_homing() && !bench.operation.take_homing());
+        bench.ask(Home);
+        bench.ask(Disable);
+        assert!(!bench.operation.take_homing(), "motors off: nothing moves any more");
+        bench.ask(Enable);
+        bench.ask(Home);
+        assert!(bench.operation.take_homing());
         let homed = bench.motors.home();
         bench.operation.end_homing(homed);
         assert!(!bench.shared.status().is_busy);

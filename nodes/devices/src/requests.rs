@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::{OperatingState, StateCommand};
+use crate::{OperatingState, StateCommand, monotonic_ns};
 
 /// More requests than this do not wait; a person presses no buttons faster.
 const QUEUE: usize = 64;
@@ -26,8 +26,6 @@ pub enum Request {
     Follow,
     /// The device carries its own weight, or not.
     GravityCompensation(bool),
-    /// The emergency stop is pressed, or not.
-    EmergencyStop(bool),
 }
 
 /// What came of a request.
@@ -78,7 +76,7 @@ pub(crate) fn requests() -> (Asker, Askee) {
 /// The asking end.
 #[derive(Debug)]
 pub(crate) struct Asker {
-    queue: rtrb::Producer<Request>,
+    queue: rtrb::Producer<(Request, u64)>,
     /// Number of requests answered, times 16, plus the code of the last answer.
     answered: Arc<AtomicU64>,
     asked: u64,
@@ -87,7 +85,7 @@ pub(crate) struct Asker {
 impl Asker {
     /// Asks, and waits a moment for the answer.
     pub(crate) fn ask(&mut self, request: Request) -> Answer {
-        if self.queue.push(request).is_err() {
+        if self.queue.push((request, monotonic_ns())).is_err() {
             return Answer::Unanswered;
         }
         self.asked += 1;
@@ -108,17 +106,18 @@ impl Asker {
 /// The answering end. Both calls are RT safe.
 #[derive(Debug)]
 pub(crate) struct Askee {
-    waiting: rtrb::Consumer<Request>,
+    waiting: rtrb::Consumer<(Request, u64)>,
     answered: Arc<AtomicU64>,
     taken: u64,
 }
 
 impl Askee {
-    /// The next request, without waiting. Every one taken must be answered before the next is taken.
-    pub(crate) fn take(&mut self) -> Option<Request> {
-        let request = self.waiting.pop().ok()?;
+    /// The next request and whether whoever asked has given up on it, at `now_ns`, without waiting. Every one taken must
+    /// be answered before the next is taken.
+    pub(crate) fn take(&mut self, now_ns: u64) -> Option<(Request, bool)> {
+        let (request, asked_ns) = self.waiting.pop().ok()?;
         self.taken += 1;
-        Some(request)
+        Some((request, now_ns.saturating_sub(asked_ns) > PATIENCE.as_nanos() as u64))
     }
 
     /// Answers the request taken last.
@@ -145,10 +144,12 @@ mod tests {
     fn each_request_gets_its_own_answer_and_a_silent_loop_is_not_waited_for() {
         let (mut asker, mut askee) = requests();
         assert_eq!(asker.ask(Request::Hold), Answer::Unanswered);
+        assert_eq!(askee.take(monotonic_ns()), Some((Request::Hold, true)), "nobody waits for it any more");
+        askee.answer(Answer::Unanswered);
         let loop_thread = std::thread::Builder::new().spawn(move || {
             let mut seen = Vec::new();
-            while seen.len() < 3 {
-                let Some(request) = askee.take() else {
+            while seen.len() < 2 {
+                let Some((request, false)) = askee.take(monotonic_ns()) else {
                     std::thread::yield_now();
                     continue;
                 };
@@ -163,6 +164,6 @@ mod tests {
         let enable = Request::State(StateCommand::Enable);
         assert_eq!(asker.ask(enable), Answer::Accepted(OperatingState::Enabled));
         assert_eq!(asker.ask(Request::Free), Answer::Refused(OperatingState::Fault));
-        assert_eq!(loop_thread.unwrap().join().unwrap(), [Request::Hold, enable, Request::Free]);
+        assert_eq!(loop_thread.unwrap().join().unwrap(), [enable, Request::Free]);
     }
 }

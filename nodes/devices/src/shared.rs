@@ -24,6 +24,8 @@ pub struct MotorStatus {
 /// What both threads look at. Every access is RT safe.
 pub(crate) struct Shared {
     pub(crate) stop: AtomicBool,
+    /// Pressed: a flag of its own, because a queue of requests may be full or not looked at.
+    pub(crate) emergency_stop: AtomicBool,
     pub(crate) counters: Counters,
     status: AtomicCell<MotorStatus>,
     max_force_n: AtomicU64,
@@ -35,6 +37,7 @@ impl Shared {
         const { assert!(AtomicCell::<MotorStatus>::is_lock_free(), "one word is one atomic store") };
         Shared {
             stop: AtomicBool::new(false),
+            emergency_stop: AtomicBool::new(false),
             counters: Counters::default(),
             status: AtomicCell::default(),
             max_force_n: AtomicU64::new(max_force_n.to_bits()),

@@ -96,7 +96,10 @@ impl<'a> Ticker<'a> {
     fn drive(&mut self, state: DeviceState, now: Moment) -> Result<Sample, DeviceError> {
         self.operation.watch(&state, now.monotonic_ns);
         self.safety.set_max_force_n(self.shared.max_force_n());
-        let permitted = self.permits_force();
+        if self.operation.take_begins_anew() {
+            self.safety.begin_anew();
+        }
+        let permitted = self.permits_force(&state);
         let wanted = self.source.want(&Inputs {
             state: &state,
             now,
@@ -136,8 +139,12 @@ impl<'a> Ticker<'a> {
         Ok(None)
     }
 
-    fn permits_force(&self) -> bool {
-        self.operation.state() == OperatingState::Enabled && !self.released
+    /// Before a device is homed its positions mean nothing, and a force that waits for homing has to go.
+    fn permits_force(&self, state: &DeviceState) -> bool {
+        self.operation.state() == OperatingState::Enabled
+            && !self.released
+            && !self.operation.wants_homing()
+            && (state.homed || !self.device.description().needs_homing)
     }
 
     fn count(&self, hit: LimitsHit) {
@@ -154,12 +161,13 @@ impl<'a> Ticker<'a> {
 
     /// Whether somebody wants the device homed, and there is no force to lose. True once.
     pub(crate) fn wants_homing(&mut self) -> bool {
-        self.safety.is_zero() && self.operation.take_homing()
+        self.safety.is_zero() && self.operation.motors_are_on() && self.operation.take_homing()
     }
 
-    /// Homes the device. Not RT safe: it may take seconds.
+    /// Homes the device. Not RT safe: it may take seconds, and nothing else is served meanwhile.
     pub(crate) fn home(&mut self) {
         let result = self.device.home();
+        self.safety.begin_anew();
         self.operation.end_homing(result);
     }
 

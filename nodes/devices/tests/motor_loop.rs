@@ -247,16 +247,21 @@ fn the_loop_answers_with_the_laws_force_and_never_calls_the_allocator() {
 
 #[test]
 fn however_the_loop_is_told_to_end_the_force_never_steps() {
-    for command in [None, Some(Request::State(StateCommand::Disable)), Some(Request::EmergencyStop(true))] {
+    type Command = fn(&mut MotorLoop);
+    let disable: Command = |motor| {
+        assert!(matches!(motor.request(Request::State(StateCommand::Disable)), Answer::Accepted(_)));
+    };
+    let emergency_stop: Command = |motor| motor.set_emergency_stop(true);
+    for command in [None, Some(disable), Some(emergency_stop)] {
         let (mut motor, mut drain, seen) = start(PRESSED);
         press(&mut motor, &mut drain);
         if let Some(command) = command {
-            assert!(matches!(motor.request(command), Answer::Accepted(_)));
+            command(&mut motor);
             while next(&mut drain).wrench != Wrench::ZERO {}
             // The motors go off in the period in which the force has arrived at zero, or the next.
             next(&mut drain);
             next(&mut drain);
-            assert!(!seen.lock().unwrap().motors_on, "{command:?}");
+            assert!(!seen.lock().unwrap().motors_on);
         }
         motor.stop().unwrap();
         let seen = seen.lock().unwrap();

@@ -389,3 +389,16 @@ fn a_client_may_guide_a_hand_and_a_contact_law_may_not() {
     assert!(guided(default, ForceOrigin::ContactLaw) < 0.1);
     assert!(guided(SafetySettings { servo_passivity: true, ..default }, ForceOrigin::ServoForce) < 0.1);
 }
+
+#[test]
+fn the_ramp_takes_its_time_however_much_is_wanted() {
+    let mut rig = Rig::engaged_for(without_passivity(), 10);
+    for tick in 1..=1000 {
+        let force_n = rig.step(Ask::force(DVec3::X * 1e4)).force_n().length();
+        // 15 N after 2 s.
+        assert!(
+            force_n <= 15.0 * f64::from(tick + 10) * PERIOD_S / 2.0 + 1e-9,
+            "{force_n} N after {tick} ms"
+        );
+    }
+}

@@ -83,13 +83,17 @@ impl Desk {
     /// The emergency stop. To be looked at before anything else.
     pub(crate) fn take_emergency_stop(&mut self, kit: &NodeKit, motor: &mut MotorLoop) {
         while let Some(Bool { data: pressed }) = self.emergency_stop.take() {
-            let words = if pressed { "emergency stop pressed" } else { "emergency stop released" };
-            match motor.request(Request::EmergencyStop(pressed)) {
-                Answer::Unanswered => {
-                    kit.log().error(&format!("{words}, and the motor loop does not answer"))
-                }
-                _ => kit.log().warn(words),
+            // Whose stop it was is not in the message; with several stops only all of them together may release it.
+            let others =
+                kit.publishers_of(&topics::EMERGENCY_STOP, "").map_or(usize::MAX, |nodes| nodes.len());
+            if !pressed && others > 1 {
+                kit.log().error(
+                    "emergency stop: not released, because more than one node publishes it; stop all but one",
+                );
+                continue;
             }
+            motor.set_emergency_stop(pressed);
+            kit.log().warn(if pressed { "emergency stop pressed" } else { "emergency stop released" });
         }
     }
 
@@ -245,7 +249,6 @@ fn words(request: Request) -> &'static str {
         Request::Free => "free",
         Request::Follow => "a force after hold or free",
         Request::GravityCompensation(_) => "use_gravity_compensation",
-        Request::EmergencyStop(_) => "emergency_stop",
         Request::State(command) => command.word(),
     }
 }

@@ -10,7 +10,7 @@ use r2r::rhombus_haptics_msgs::msg::ContactLaw;
 use r2r::sensor_msgs::msg::JointState;
 use scene::Scene;
 
-use crate::freshness::{Freshness, Untimely};
+use crate::freshness::{Backlog, Freshness, Untimely};
 use crate::law_message::LawReader;
 use crate::now::now_ns;
 use crate::publisher::lock;
@@ -49,6 +49,7 @@ pub(crate) struct Forces {
     sources: Sources,
     looked: Option<Instant>,
     gripper: GripperForce,
+    backlog: Backlog,
     counts: ForceCounts,
     lines: Lines,
 }
@@ -129,6 +130,7 @@ impl Forces {
             stability: StabilityWatch::new(scene),
             sources: Sources::default(),
             looked: None,
+            backlog: Backlog::new(servo_ns.unsigned_abs()),
             gripper: GripperForce { force_n: 0.0, received_ns: None, validity_ns: servo_ns.unsigned_abs() },
             counts: ForceCounts::default(),
             lines: Lines { rejected: line(), untimely: line(), contested: line(), unstable: line() },
@@ -149,6 +151,7 @@ impl Forces {
     pub(crate) fn take(&mut self, kit: &NodeKit, motor: &mut MotorLoop) -> bool {
         let Some(mut inboxes) = self.inboxes.take() else { return false };
         self.look(kit, LOOK);
+        self.backlog.begin_turn(monotonic_ns());
         // Laws first: with one of them the motor loop does not need the force.
         while let Some(message) = inboxes.laws.0.take() {
             if let Some(command) = self.law(kit, &message, &mut inboxes.laws.1) {
@@ -176,6 +179,7 @@ impl Forces {
             }
         }
         self.inboxes = Some(inboxes);
+        self.backlog.end_turn(monotonic_ns());
         is_anew
     }
 
@@ -289,7 +293,7 @@ impl Forces {
         freshness: &mut Freshness,
         stamp_ns: i64,
     ) -> bool {
-        match freshness.check(stamp_ns, self.clocks_ns()) {
+        match freshness.check(stamp_ns, self.clocks_ns(), &self.backlog) {
             Ok(()) => true,
             Err(untimely) => {
                 self.counts.untimely += 1;

@@ -6,7 +6,42 @@ use std::fmt;
 #[derive(Clone, Debug)]
 pub(crate) struct Freshness {
     limit_ns: i64,
-    last_ns: Option<i64>,
+    /// Stamp and arrival, by the monotonic clock, of the last command that was followed.
+    last: Option<(i64, u64)>,
+}
+
+/// Turns that empty what has waited: after a turn that was long in coming, until one had to wait for its message.
+#[derive(Clone, Debug)]
+pub(crate) struct Backlog {
+    away_ns: u64,
+    turn_ns: u64,
+    ended_ns: Option<u64>,
+    has_waited: bool,
+}
+
+/// A turn that waits shorter than this found a message that was there before it, ns.
+const SHORTEST_WAIT_NS: u64 = 300_000;
+
+impl Backlog {
+    /// Turns that are `away_ns` apart are long in coming.
+    pub(crate) fn new(away_ns: u64) -> Backlog {
+        Backlog { away_ns, turn_ns: 0, ended_ns: None, has_waited: true }
+    }
+
+    pub(crate) fn begin_turn(&mut self, now_ns: u64) {
+        self.turn_ns = now_ns;
+        let Some(ended_ns) = self.ended_ns else { return };
+        let waited_ns = now_ns.saturating_sub(ended_ns);
+        if waited_ns > self.away_ns {
+            self.has_waited = false;
+        } else if waited_ns >= SHORTEST_WAIT_NS {
+            self.has_waited = true;
+        }
+    }
+
+    pub(crate) fn end_turn(&mut self, now_ns: u64) {
+        self.ended_ns = Some(now_ns);
+    }
 }
 
 /// Why a command is not followed.
@@ -16,6 +51,8 @@ pub(crate) enum Untimely {
     Old(i64),
     /// By so much, ns.
     Ahead(i64),
+    /// Without a stamp, and among others that had waited for a node that was away.
+    Backlog,
     /// Another one with this stamp or a later one was followed before.
     Overtaken,
 }
@@ -23,14 +60,20 @@ pub(crate) enum Untimely {
 impl Freshness {
     /// Commands may be `limit_ns` old.
     pub(crate) fn new(limit_ns: i64) -> Freshness {
-        Freshness { limit_ns, last_ns: None }
+        Freshness { limit_ns, last: None }
     }
 
     /// Judges a stamp by the clocks that its sender may have taken it from; the one that fits best counts. Stamp zero says
-    /// nothing: the command is as old as its arrival.
-    pub(crate) fn check(&mut self, stamp_ns: i64, clocks_ns: [i64; 2]) -> Result<(), Untimely> {
+    /// nothing: the command is as old as its arrival, unless it has waited in the queue of a node that was away. The
+    /// order matters only among commands that could both still be followed: the system's clock may be set back.
+    pub(crate) fn check(
+        &mut self,
+        stamp_ns: i64,
+        clocks_ns: [i64; 2],
+        backlog: &Backlog,
+    ) -> Result<(), Untimely> {
         if stamp_ns == 0 {
-            return Ok(());
+            return if backlog.has_waited { Ok(()) } else { Err(Untimely::Backlog) };
         }
         let ages_ns = clocks_ns.map(|now_ns| now_ns.saturating_sub(stamp_ns));
         let age_ns = if ages_ns[0].abs() <= ages_ns[1].abs() { ages_ns[0] } else { ages_ns[1] };
@@ -40,10 +83,14 @@ impl Freshness {
         if age_ns < -self.limit_ns {
             return Err(Untimely::Ahead(-age_ns));
         }
-        if self.last_ns.is_some_and(|last_ns| stamp_ns <= last_ns) {
+        let arrived_ns = backlog.turn_ns;
+        let still_counts_ns = self.limit_ns.unsigned_abs().saturating_mul(2);
+        if self.last.is_some_and(|(last_ns, at_ns)| {
+            stamp_ns <= last_ns && arrived_ns.saturating_sub(at_ns) <= still_counts_ns
+        }) {
             return Err(Untimely::Overtaken);
         }
-        self.last_ns = Some(stamp_ns);
+        self.last = Some((stamp_ns, arrived_ns));
         Ok(())
     }
 }
@@ -54,6 +101,9 @@ impl fmt::Display for Untimely {
         match *self {
             Untimely::Old(age_ns) => write!(f, "its stamp is {:.1} ms old", ms(age_ns)),
             Untimely::Ahead(ns) => write!(f, "its stamp is {:.1} ms in the future", ms(ns)),
+            Untimely::Backlog => {
+                f.write_str("it has no stamp and has waited with others for this node, which was busy")
+            }
             Untimely::Overtaken => f.write_str("its stamp is not later than that of the command before"),
         }
     }
@@ -67,7 +117,41 @@ mod tests {
     const NOW: i64 = 1_700_000_000_000 * MS;
 
     fn check(freshness: &mut Freshness, stamp_ns: i64) -> Result<(), Untimely> {
-        freshness.check(stamp_ns, [NOW, NOW])
+        freshness.check(stamp_ns, [NOW, NOW], &Backlog::new(20 * MS as u64))
+    }
+
+    /// A backlog after turns at these times, ms, each of which takes no time.
+    fn turns_at(times_ms: &[f64]) -> Backlog {
+        let mut backlog = Backlog::new(20 * MS as u64);
+        for time_ms in times_ms {
+            backlog.begin_turn((time_ms * 1e6) as u64);
+            backlog.end_turn((time_ms * 1e6) as u64);
+        }
+        backlog
+    }
+
+    #[test]
+    fn unstamped_commands_that_waited_for_a_node_that_was_away_are_not_followed() {
+        let mut freshness = Freshness::new(20 * MS);
+        let mut unstamped = |times_ms: &[f64]| freshness.check(0, [NOW, NOW], &turns_at(times_ms));
+        assert_eq!(unstamped(&[0.0, 1.0, 2.0]), Ok(()));
+        assert_eq!(unstamped(&[0.0, 800.0]), Err(Untimely::Backlog));
+        assert_eq!(unstamped(&[0.0, 800.0, 800.1, 800.2]), Err(Untimely::Backlog));
+        assert_eq!(
+            unstamped(&[0.0, 800.0, 800.1, 801.1, 801.2]),
+            Ok(()),
+            "a turn has waited: the queue was empty"
+        );
+    }
+
+    #[test]
+    fn a_clock_that_was_set_back_blocks_nobody_for_longer_than_a_command_lives() {
+        let mut freshness = Freshness::new(20 * MS);
+        let hour = 3_600_000 * MS;
+        assert_eq!(freshness.check(NOW, [NOW, NOW], &turns_at(&[0.0])), Ok(()));
+        let earlier = NOW - hour;
+        assert_eq!(freshness.check(earlier, [earlier, NOW], &turns_at(&[1.0])), Err(Untimely::Overtaken));
+        assert_eq!(freshness.check(earlier, [earlier, NOW], &turns_at(&[41.0])), Ok(()));
     }
 
     #[test]
@@ -107,7 +191,7 @@ mod tests {
     fn stamps_may_come_from_the_system_or_from_the_poses() {
         let mut freshness = Freshness::new(20 * MS);
         let hour = 3_600_000 * MS;
-        assert_eq!(freshness.check(NOW + hour, [NOW, NOW + hour]), Ok(()));
-        assert_eq!(Freshness::new(20 * MS).check(NOW, [NOW, NOW + hour]), Ok(()));
+        assert_eq!(freshness.check(NOW + hour, [NOW, NOW + hour], &turns_at(&[])), Ok(()));
+        assert_eq!(Freshness::new(20 * MS).check(NOW, [NOW, NOW + hour], &turns_at(&[])), Ok(()));
     }
 }

@@ -18,6 +18,9 @@ const GRASP: u8 = LawMessage::GRASP as u8;
 const PUBLISHED: u8 = LawMessage::PUBLISHED as u8;
 const ENERGY: u8 = LawMessage::ENERGY as u8;
 
+/// More chains than any tissue was calibrated with; 64 take the motor loop some 10 us.
+const MOST_CHAINS: usize = 64;
+
 /// Why a message is no contact law for this device.
 #[derive(Debug, Error)]
 pub(crate) enum LawRefusal {
@@ -35,6 +38,10 @@ pub(crate) enum LawRefusal {
     Negative { name: &'static str, value: f64 },
     #[error("the chain arrays differ in length: {0:?}; accepted is one entry for each chain in each")]
     Lengths([usize; 7]),
+    #[error(
+        "{0} chains; accepted are at most {MOST_CHAINS}, because the motor loop adds them up in every period"
+    )]
+    TooMany(usize),
     #[error(transparent)]
     Chains(#[from] ParameterError),
 }
@@ -71,6 +78,9 @@ impl LawReader {
             ENERGY => Formulation::Energy,
             other => return Err(LawRefusal::Formulation(other)),
         };
+        if message.rod_length.len() > MOST_CHAINS {
+            return Err(LawRefusal::TooMany(message.rod_length.len()));
+        }
         let chains = chain_parameters(message)?;
         if let Some((last_formulation, last_chains, law)) = &self.last
             && *last_formulation == formulation

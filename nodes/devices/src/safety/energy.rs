@@ -43,6 +43,10 @@ pub(super) struct EnergyObserver {
     before: Option<Pose>,
 }
 
+/// Faster is no motion of a handle but a wrong position, m/s; and a position may be wrong by so much at any speed, m.
+const FASTEST_M_PER_S: f64 = 10.0;
+const CLOSEST_M: f64 = 0.001;
+
 impl EnergyObserver {
     /// A new reading, `elapsed_s` after the one before; `held` was commanded all the time in between, and `kept` is what
     /// the controller had taken out of it. What is not `controlled`, because its source may be active, is summed up for
@@ -60,11 +64,15 @@ impl EnergyObserver {
         {
             let moved = state.pose.translation - before.translation;
             let turned = turned(before.rotation, state.pose.rotation);
+            // A wrong position makes two steps that no handle makes, there and back; and one that is not a number, too.
+            let is_motion = moved.length() <= FASTEST_M_PER_S * elapsed_s + CLOSEST_M;
             let energy_j = |wrench: &Wrench| wrench.force_n.dot(moved) + wrench.torque_n_m.dot(turned);
-            self.energy.given_j += energy_j(held);
-            self.energy.dissipated_j += energy_j(kept);
-            if controlled {
-                self.owed_j += energy_j(held);
+            if is_motion {
+                self.energy.given_j += energy_j(held);
+                self.energy.dissipated_j += energy_j(kept);
+                if controlled {
+                    self.owed_j += energy_j(held);
+                }
             }
         }
         self.before = Some(state.pose);
@@ -73,6 +81,11 @@ impl EnergyObserver {
         }
         self.drop_credit_when_free(held, elapsed_s);
         self.energy.largest_deficit_j = self.energy.largest_deficit_j.max(self.owed_j);
+    }
+
+    /// Forgets what is owed: somebody has looked, and has commanded that the force begin anew. RT safe.
+    pub(super) fn begin_anew(&mut self) {
+        (self.owed_j, self.before) = (0.0, None);
     }
 
     /// How much the hand was given beyond what it had put in, J; negative is what it may still get. RT safe.

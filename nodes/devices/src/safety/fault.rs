@@ -27,16 +27,8 @@ pub enum FaultCause {
         "the ROS thread has not been heard of for safety.ros_timeout; restart the driver if it stays silent, otherwise enable"
     )]
     RosThreadHung,
-    /// The motor loop missed its deadlines for too long.
-    #[error(
-        "the motor loop missed its deadlines for too long; lower device.rate or the machine's load, then enable"
-    )]
-    LoopOverrun,
-    /// A second publisher on a command topic.
-    #[error("more than one publisher on a command topic; stop all but one, then enable")]
-    SecondPublisher,
     /// Homing did not work.
-    #[error("the device could not be homed; free the handle, then home")]
+    #[error("the device could not be homed; free the handle, then enable and home again")]
     HomingFailed,
 }
 
@@ -137,8 +129,6 @@ mod tests {
             FaultCause::DeviceLost,
             FaultCause::NotFinite,
             FaultCause::RosThreadHung,
-            FaultCause::LoopOverrun,
-            FaultCause::SecondPublisher,
             FaultCause::HomingFailed,
         ];
         let mut sentences: Vec<String> =

@@ -103,8 +103,9 @@ impl SafetyLayer {
         self.kept = Wrench::ZERO;
         if permits_force && fault.is_none() {
             let share = self.gate.share(wanted, elapsed_s, dt_s, &mut hit);
-            target = sum(&Wrench::ZERO, &target, share);
+            // A share of what is allowed, not of what is wanted, which may be a thousand times as much.
             target = self.clamp.apply(target, &mut hit);
+            target = sum(&Wrench::ZERO, &target, share);
             target = self.edge.apply(target, state, &mut hit);
             let before = target;
             if self.controlled {
@@ -139,6 +140,12 @@ impl SafetyLayer {
     /// slew limit. RT safe.
     pub fn set_max_force_n(&mut self, force_n: f64) {
         self.clamp.set_max_force_n(force_n);
+    }
+
+    /// The force begins anew, from nothing: by command, which also forgives a debt of energy. RT safe.
+    pub fn begin_anew(&mut self) {
+        self.gate.close();
+        self.energy.begin_anew();
     }
 
     /// What the motors were given last. RT safe.

@@ -93,6 +93,13 @@ impl Rig {
         Rig { layer, settings, now_ns: 1_000_000_000 }
     }
 
+    /// A layer that was asked for nothing for so many periods: the gate opens after 5.
+    pub(crate) fn engaged_for(settings: CheckedSettings, ticks: usize) -> Rig {
+        let mut rig = Rig::new(settings);
+        rig.steps(Ask::default(), ticks);
+        rig
+    }
+
     /// A layer whose gate is open and whose ramp is over.
     pub(crate) fn engaged(settings: CheckedSettings, state: DeviceState) -> Rig {
         let mut rig = Rig::new(settings);
