@@ -137,13 +137,13 @@ fn bare(rate_hz: f64, options: &Options) -> Result<Round> {
     let cpu = options.cpu;
     let thread = std::thread::Builder::new().name("bare_loop".to_owned()).spawn(move || {
         Scheduling::request(PRIORITY, cpu);
-        let mut lateness_us = Vec::with_capacity(periods);
+        let mut lateness_us = touched(periods);
         let mut skipped = 0;
         let mut deadline_ns = monotonic_ns() + period_ns;
         while lateness_us.len() < periods {
             sleep_until(deadline_ns);
             let late_ns = monotonic_ns().saturating_sub(deadline_ns);
-            lateness_us.push(late_ns as f64 / 1000.0);
+            lateness_us.push(us(late_ns));
             let left_out = late_ns / period_ns;
             skipped += left_out;
             deadline_ns += period_ns * (1 + left_out);
@@ -169,42 +169,46 @@ fn motor(rate_hz: f64, options: &Options, law: &Arc<ContactLaw>) -> Result<Round
         gravity_compensation: false,
     };
     let mut motor = MotorLoop::start(backend.opener(), settings, sender)?;
-    let mut seen: Vec<Sample> = Vec::with_capacity(periods + 1000);
+    let (mut lateness_us, mut work_us) = (touched(periods), touched(periods));
+    let (mut largest_step_n, mut in_contact, mut before) = (0.0f64, 0, None::<Sample>);
     let mut next_law = Instant::now();
-    while seen.len() < periods && motor.is_running() {
-        if let Some(sample) = receiver.recv_timeout(Duration::from_millis(5)) {
-            seen.push(sample);
-            if Instant::now() >= next_law {
-                next_law = Instant::now() + LAW_PERIOD;
-                motor.send_law(floor(sample.stamp_ns, law));
-            }
-        }
+    while lateness_us.len() < periods && motor.is_running() {
         motor.beat();
+        let Some(sample) = receiver.recv_timeout(Duration::from_millis(5)) else { continue };
+        lateness_us.push(us(sample.late_ns));
+        if let Some(before) = before {
+            // The first has none before it.
+            work_us.push(us(sample.work_ns));
+            largest_step_n = largest_step_n.max((sample.wrench.force_n - before.wrench.force_n).length());
+        }
+        let is_pressed = sample.origin == ForceOrigin::ContactLaw && sample.wrench.force_n.z > 0.0;
+        in_contact += usize::from(is_pressed);
+        before = Some(sample);
+        if Instant::now() >= next_law {
+            next_law = Instant::now() + LAW_PERIOD;
+            motor.send_law(floor(sample.stamp_ns, law));
+        }
     }
     let counts = motor.counts();
     motor.stop()?;
     ensure!(counts.lost_samples == 0, "{} samples were lost", counts.lost_samples);
     let slew_n = SafetySettings::default().slew_n_per_s / rate_hz;
-    let largest_step_n = seen
-        .windows(2)
-        .map(|pair| (pair[1].wrench.force_n - pair[0].wrench.force_n).length())
-        .fold(0.0, f64::max);
     ensure!(
         largest_step_n <= slew_n * (1.0 + 1e-9),
         "a step of {largest_step_n} N, the slew limit is {slew_n} N"
     );
-    let us = |ns: u64| ns as f64 / 1000.0;
-    Ok(Round {
-        lateness_us: seen.iter().map(|sample| us(sample.late_ns)).collect(),
-        // The first has none before it.
-        work_us: seen.iter().skip(1).map(|sample| us(sample.work_ns)).collect(),
-        largest_step_n,
-        in_contact: seen
-            .iter()
-            .filter(|sample| sample.origin == ForceOrigin::ContactLaw && sample.wrench.force_n.z > 0.0)
-            .count(),
-        skipped: counts.skipped_ticks,
-    })
+    Ok(Round { lateness_us, work_us, largest_step_n, in_contact, skipped: counts.skipped_ticks })
+}
+
+fn us(ns: u64) -> f64 {
+    ns as f64 / 1000.0
+}
+
+/// Room that the operating system has already found pages for: finding them holds up every other thread of a CPU.
+fn touched(count: usize) -> Vec<f64> {
+    let mut room = vec![1.0; count + 1000];
+    room.clear();
+    room
 }
 
 fn grid(rate_hz: f64, options: &Options) -> (u64, usize) {
