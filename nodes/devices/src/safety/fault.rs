@@ -45,41 +45,21 @@ fn remedy(reason: &MotorsOff) -> &'static str {
     }
 }
 
-/// Keeps the first cause of a fault until it is cleared.
+/// Keeps the first cause of a fault. A command clears it by beginning with an empty one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FaultLatch {
     cause: Option<FaultCause>,
 }
 
 impl FaultLatch {
-    /// Latches a cause; one that is latched already stays. True when it is new. RT safe.
-    pub fn raise(&mut self, cause: FaultCause) -> bool {
-        let is_new = self.cause.is_none();
+    /// Latches a cause; one that is latched already stays. RT safe.
+    pub fn raise(&mut self, cause: FaultCause) {
         self.cause.get_or_insert(cause);
-        is_new
     }
 
-    /// The first cause since the last clearing. RT safe.
+    /// The first cause. RT safe.
     pub fn cause(&self) -> Option<FaultCause> {
         self.cause
-    }
-
-    /// By command: lets go of the cause, unless something is wrong at this moment. `present` is what is: an emergency
-    /// stop that is still pressed, a device that is still lost. RT safe.
-    ///
-    /// # Errors
-    /// `present`, which is latched if nothing was: there must be a cause as long as something is wrong.
-    pub fn clear(&mut self, present: Option<FaultCause>) -> Result<(), FaultCause> {
-        match present {
-            Some(cause) => {
-                self.raise(cause);
-                Err(cause)
-            }
-            None => {
-                self.cause = None;
-                Ok(())
-            }
-        }
     }
 }
 
@@ -88,27 +68,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_cause_stays_until_it_is_cleared() {
+    fn the_first_cause_stays() {
         let mut latch = FaultLatch::default();
-        assert!(latch.raise(FaultCause::Velocity));
-        assert!(!latch.raise(FaultCause::DeviceLost));
-        assert_eq!(latch.cause(), Some(FaultCause::Velocity));
-        assert_eq!(latch.clear(None), Ok(()));
         assert_eq!(latch.cause(), None);
-        assert!(latch.raise(FaultCause::DeviceLost));
-        assert_eq!(latch.cause(), Some(FaultCause::DeviceLost));
-    }
-
-    #[test]
-    fn what_is_still_wrong_cannot_be_cleared() {
-        let mut latch = FaultLatch::default();
         latch.raise(FaultCause::Velocity);
-        let pressed = Some(FaultCause::EmergencyStop);
-        assert_eq!(latch.clear(pressed), Err(FaultCause::EmergencyStop));
+        latch.raise(FaultCause::DeviceLost);
         assert_eq!(latch.cause(), Some(FaultCause::Velocity));
-        assert_eq!(latch.clear(None), Ok(()));
-        assert_eq!(latch.clear(pressed), Err(FaultCause::EmergencyStop));
-        assert_eq!(latch.cause(), pressed);
     }
 
     #[test]
