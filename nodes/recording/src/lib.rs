@@ -7,6 +7,7 @@
 //! Times are nanoseconds since 1970 as rosbag2 stores them: `log_time_ns` is when the recorder received a message. The
 //! stamp inside a message is another matter and is never looked at here.
 
+mod block;
 pub mod cdr;
 mod definitions;
 mod error;
