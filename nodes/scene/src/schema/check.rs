@@ -17,6 +17,8 @@ pub enum Check {
     Within(f64, f64),
     /// `min <= x < max`.
     WithinBelow(f64, f64),
+    /// One of these numbers, in ascending order.
+    OneOfNumbers(&'static [f64]),
     /// One of these texts.
     OneOf(&'static [&'static str]),
     /// A frame id: not empty, no white space.
@@ -35,6 +37,7 @@ impl Check {
                 Check::Between(min, max) => min < x && x < max,
                 Check::Within(min, max) => min <= x && x <= max,
                 Check::WithinBelow(min, max) => min <= x && x < max,
+                Check::OneOfNumbers(numbers) => numbers.contains(&x),
                 Check::Any | Check::OneOf(_) | Check::FrameId | Check::Pose => true,
             }
     }
@@ -55,6 +58,7 @@ impl Check {
             Check::Between(min, max) | Check::Within(min, max) | Check::WithinBelow(min, max) => {
                 Some((min, max))
             }
+            Check::OneOfNumbers(numbers) => Some((*numbers.first()?, *numbers.last()?)),
             Check::Any | Check::OneOf(_) | Check::FrameId | Check::Pose => None,
         }
     }
@@ -70,6 +74,10 @@ impl fmt::Display for Check {
             Check::Between(min, max) => write!(f, "> {min} and < {max}"),
             Check::Within(min, max) => write!(f, "{min} to {max}"),
             Check::WithinBelow(min, max) => write!(f, ">= {min} and < {max}"),
+            Check::OneOfNumbers(numbers) => {
+                let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
+                f.write_str(&words.join(" or "))
+            }
             Check::OneOf(words) => {
                 for (i, word) in words.iter().enumerate() {
                     if i > 0 {
