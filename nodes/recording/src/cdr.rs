@@ -29,6 +29,26 @@ pub trait Wire: Sized {
     /// # Errors
     /// When the bytes end early or cannot be such a value.
     fn take(decoder: &mut Decoder<'_>) -> Result<Self, Fault>;
+    /// What the type looks like in a message definition.
+    fn shape() -> Shape;
+}
+
+/// A type as message definitions name it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Shape {
+    /// A number, `bool` or `string`, by its name in a `.msg` file.
+    Primitive(&'static str),
+    /// Any number of elements.
+    Sequence(Box<Shape>),
+    /// A fixed number of elements.
+    Array(Box<Shape>, usize),
+    /// Another message.
+    Message {
+        /// Such as `std_msgs/msg/Header`.
+        type_name: &'static str,
+        /// Name and type of each field, in order.
+        fields: Vec<(&'static str, Shape)>,
+    },
 }
 
 /// The bytes of `message`, header included.
@@ -164,7 +184,7 @@ impl<'a> Decoder<'a> {
 }
 
 macro_rules! number {
-    ($($type:ty),+) => {$(
+    ($($type:ty = $name:literal),+) => {$(
         impl Wire for $type {
             const MIN_BYTES: usize = size_of::<$type>();
             fn put(&self, encoder: &mut Encoder) {
@@ -175,10 +195,13 @@ macro_rules! number {
                 let bytes = decoder.aligned()?;
                 Ok(if decoder.big_endian { Self::from_be_bytes(bytes) } else { Self::from_le_bytes(bytes) })
             }
+            fn shape() -> Shape {
+                Shape::Primitive($name)
+            }
         }
     )+};
 }
-number!(u8, i32, u32, f32, f64);
+number!(u8 = "uint8", i32 = "int32", u32 = "uint32", u64 = "uint64", f32 = "float32", f64 = "float64");
 
 impl Wire for bool {
     const MIN_BYTES: usize = 1;
@@ -191,6 +214,9 @@ impl Wire for bool {
             1 => Ok(true),
             other => Err(Fault::Bool(other)),
         }
+    }
+    fn shape() -> Shape {
+        Shape::Primitive("bool")
     }
 }
 
@@ -210,6 +236,9 @@ impl Wire for String {
             _ => Err(Fault::Text),
         }
     }
+    fn shape() -> Shape {
+        Shape::Primitive("string")
+    }
 }
 
 impl<T: Wire> Wire for Vec<T> {
@@ -221,6 +250,9 @@ impl<T: Wire> Wire for Vec<T> {
     fn take(decoder: &mut Decoder<'_>) -> Result<Self, Fault> {
         let count = decoder.count(T::MIN_BYTES)?;
         (0..count).map(|_| T::take(decoder)).collect()
+    }
+    fn shape() -> Shape {
+        Shape::Sequence(Box::new(T::shape()))
     }
 }
 
@@ -235,6 +267,9 @@ impl<T: Wire + Copy + Default, const N: usize> Wire for [T; N] {
             *element = T::take(decoder)?;
         }
         Ok(array)
+    }
+    fn shape() -> Shape {
+        Shape::Array(Box::new(T::shape()), N)
     }
 }
 
