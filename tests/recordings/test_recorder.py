@@ -106,7 +106,8 @@ def test_by_default_the_topics_of_the_namespace_and_its_devices_are_recorded(tmp
     remote.wait_for(lambda: all(publisher.get_subscription_count() for publisher in publishers[:2]), "the recorder")
     for publisher in publishers:
         publisher.publish(pose(1))
-    remote.spin(0.5)
+    # Health is said once a second.
+    remote.spin(1.2)
     assert program.interrupt()[0] == 0, program.log()
     topics = program.closing_report()["topics"]
     assert {topic: topics.get(topic) for topic in named} == dict.fromkeys(named, 1)

@@ -1,10 +1,13 @@
 //! The node `bag_replay`: writes the session's topics into a recording, or plays one.
 
+mod batch;
 mod graph;
 mod names;
 mod play;
+mod rcl;
 mod record;
 mod schedule;
+mod session;
 mod settings;
 mod storage;
 mod subscription;

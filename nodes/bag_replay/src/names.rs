@@ -1,59 +1,6 @@
-//! Names: of topics in a namespace, of the session's topics, of recordings.
+//! Names: of topics in a namespace, and of recordings.
 
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
-
-use node_kit::topics::{self, Topic};
-use r2r::QosProfile;
-
-/// A topic that a session has: what is known of it before anybody publishes it.
-pub(crate) struct SessionTopic {
-    /// Absolute name.
-    pub(crate) name: String,
-    /// Such as `geometry_msgs/msg/PoseStamped`.
-    pub(crate) type_name: &'static str,
-    /// As its publishers in this project offer it.
-    pub(crate) qos: QosProfile,
-}
-
-/// Every topic of a session, with those of each device in the device's sub-namespace. What only viewers and logs need is
-/// left out: it follows from the rest.
-pub(crate) fn session_topics(namespace: &str, devices: &[String]) -> Vec<SessionTopic> {
-    fn row<M>(name: String, topic: &Topic<M>, type_name: &'static str) -> SessionTopic {
-        SessionTopic { name, type_name, qos: topic.qos() }
-    }
-    let mut rows = Vec::new();
-    for device in devices {
-        macro_rules! of_device {
-            ($($topic:ident: $type_name:literal),+ $(,)?) => {
-                $(rows.push(row(absolute(namespace, &topics::$topic.name_in(device)), &topics::$topic, $type_name));)+
-            };
-        }
-        of_device!(
-            MEASURED_CP: "geometry_msgs/msg/PoseStamped",
-            MEASURED_CV: "geometry_msgs/msg/TwistStamped",
-            MEASURED_CF: "geometry_msgs/msg/WrenchStamped",
-            GRIPPER_MEASURED_JS: "sensor_msgs/msg/JointState",
-            GRASP: "std_msgs/msg/Bool",
-            CLUTCH: "sensor_msgs/msg/Joy",
-            SERVO_CF: "geometry_msgs/msg/WrenchStamped",
-            CONTACT_LAW: "rhombus_haptics_msgs/msg/ContactLaw",
-            CONTACT_STATE: "rhombus_haptics_msgs/msg/ContactState",
-        );
-    }
-    macro_rules! of_session {
-        ($($topic:ident: $type_name:literal),+ $(,)?) => {
-            $(rows.push(row(absolute(namespace, topics::$topic.name()), &topics::$topic, $type_name));)+
-        };
-    }
-    of_session!(
-        SURFACE_DISPLACEMENT: "rhombus_haptics_msgs/msg/SurfaceDisplacement",
-        BODY_MESH: "shape_msgs/msg/Mesh",
-        TF: "tf2_msgs/msg/TFMessage",
-        TF_STATIC: "tf2_msgs/msg/TFMessage",
-        DIAGNOSTICS: "diagnostic_msgs/msg/DiagnosticArray",
-    );
-    rows
-}
 
 /// `name` as the graph knows it: relative names stand in the node's namespace.
 pub(crate) fn absolute(namespace: &str, name: &str) -> String {
@@ -119,53 +66,6 @@ mod tests {
         }
         for name in ["tf", "/", "/a/", "//a", "/1a", "/white space", "/~/a", "/a-b"] {
             assert!(!is_topic(name), "{name:?}");
-        }
-    }
-
-    #[test]
-    fn each_device_has_its_topics_in_its_sub_namespace_and_no_name_comes_twice() {
-        let devices = ["left".to_owned(), "right".to_owned()];
-        let mut names: Vec<_> = session_topics("/or", &devices).into_iter().map(|topic| topic.name).collect();
-        assert!(names.contains(&"/or/left/measured_cp".to_owned()), "{names:?}");
-        assert!(names.contains(&"/or/right/servo_cf".to_owned()), "{names:?}");
-        assert!(names.contains(&"/or/surface_displacement".to_owned()), "{names:?}");
-        assert!(names.contains(&"/tf_static".to_owned()), "{names:?}");
-        let count = names.len();
-        names.sort();
-        names.dedup();
-        assert_eq!(names.len(), count);
-    }
-
-    #[test]
-    fn the_types_written_here_are_those_of_the_topics() {
-        fn type_of<M>(_: &Topic<M>) -> &'static str {
-            std::any::type_name::<M>()
-        }
-        let expected = [
-            type_of(&topics::MEASURED_CP),
-            type_of(&topics::MEASURED_CV),
-            type_of(&topics::MEASURED_CF),
-            type_of(&topics::GRIPPER_MEASURED_JS),
-            type_of(&topics::GRASP),
-            type_of(&topics::CLUTCH),
-            type_of(&topics::SERVO_CF),
-            type_of(&topics::CONTACT_LAW),
-            type_of(&topics::CONTACT_STATE),
-            type_of(&topics::SURFACE_DISPLACEMENT),
-            type_of(&topics::BODY_MESH),
-            type_of(&topics::TF),
-            type_of(&topics::TF_STATIC),
-            type_of(&topics::DIAGNOSTICS),
-        ];
-        let rows = session_topics("/", &[String::new()]);
-        assert_eq!(rows.len(), expected.len());
-        for (row, rust) in rows.iter().zip(expected) {
-            assert!(
-                rust.ends_with(&row.type_name.replace('/', "::")),
-                "{}: {} is {rust}",
-                row.name,
-                row.type_name
-            );
         }
     }
 

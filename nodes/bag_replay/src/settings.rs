@@ -5,6 +5,7 @@ use std::time::{Duration, SystemTime};
 
 use anyhow::{Context, bail};
 use node_kit::NodeKit;
+use recording::Writer;
 
 use crate::names;
 
@@ -24,6 +25,14 @@ pub(crate) struct RecordSettings {
     pub(crate) topics: Vec<String>,
     /// Sub-namespaces of the session's devices.
     pub(crate) devices: Vec<String>,
+}
+
+impl RecordSettings {
+    /// Begins the recording.
+    pub(crate) fn create_writer(&self) -> Result<Writer, recording::Error> {
+        let ros_distro = std::env::var("ROS_DISTRO").unwrap_or_default();
+        Writer::create(&self.directory, &ros_distro)
+    }
 }
 
 /// How to play.

@@ -3,15 +3,21 @@
 //! The queue is bounded and a full one holds up the receiving side, where rcl keeps some more seconds of messages: a disk
 //! that pauses loses nothing, and one that stops for good does not eat the memory.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
 use anyhow::{Context, anyhow};
-use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, TrySendError, bounded};
+use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, unbounded};
 use recording::{DefinitionError, MessageDefinition, Qos, Topic, TopicId, Writer, Written};
 
-/// Several seconds of a session with two devices.
-const QUEUE_MESSAGES: usize = 1 << 16;
+use crate::batch::Batch;
+
+/// Half a minute of a session with two devices.
+const QUEUE_BYTES: usize = 64 << 20;
+/// How often a full queue is looked at.
+const FULL: Duration = Duration::from_millis(2);
 /// Without new messages what was received goes to the file after this long.
 const IDLE: Duration = Duration::from_millis(250);
 
@@ -25,17 +31,15 @@ enum Job {
         type_name: String,
         offered_qos: Vec<Qos>,
     },
-    Message {
-        topic: usize,
-        log_time_ns: u64,
-        data: Vec<u8>,
-    },
+    Messages(Batch),
 }
 
 /// The receiving side's end of the queue.
 pub(crate) struct Storage {
     jobs: Sender<Job>,
     thread: JoinHandle<anyhow::Result<Written>>,
+    /// Bytes of the messages in the queue.
+    waiting: Arc<AtomicUsize>,
     topics: usize,
     messages: u64,
     held_up: u64,
@@ -48,7 +52,9 @@ impl Storage {
         find_definition: Box<FindDefinition>,
         warn: Box<dyn Fn(&str) + Send>,
     ) -> anyhow::Result<Self> {
-        let (jobs, queue) = bounded(QUEUE_MESSAGES);
+        let (jobs, queue) = unbounded();
+        let waiting = Arc::new(AtomicUsize::new(0));
+        let written = Arc::clone(&waiting);
         let definition_of = move |name: &str, type_name: &str| {
             find_definition(type_name).unwrap_or_else(|error| {
                 warn(&format!("{name} is recorded without the text of its type: {error}"));
@@ -57,8 +63,9 @@ impl Storage {
         };
         let thread = std::thread::Builder::new()
             .name("bag_writer".to_owned())
-            .spawn(move || write(writer, &queue, definition_of));
-        Ok(Self { jobs, thread: thread.context("the writing thread")?, topics: 0, messages: 0, held_up: 0 })
+            .spawn(move || write(writer, &queue, &written, definition_of));
+        let thread = thread.context("the writing thread")?;
+        Ok(Self { jobs, thread, waiting, topics: 0, messages: 0, held_up: 0 })
     }
 
     /// Adds a topic and gives its number.
@@ -68,10 +75,17 @@ impl Storage {
         self.topics - 1
     }
 
-    /// Stores a message of a topic; waits while the queue is full.
-    pub(crate) fn store(&mut self, topic: usize, log_time_ns: u64, data: Vec<u8>) {
-        self.send(Job::Message { topic, log_time_ns, data });
-        self.messages += 1;
+    /// Stores messages; waits while the queue is full.
+    pub(crate) fn store(&mut self, batch: Batch) {
+        if self.waiting.load(Ordering::Relaxed) > QUEUE_BYTES {
+            self.held_up += 1;
+        }
+        while self.waiting.load(Ordering::Relaxed) > QUEUE_BYTES && !self.has_failed() {
+            std::thread::sleep(FULL);
+        }
+        self.waiting.fetch_add(batch.bytes(), Ordering::Relaxed);
+        self.messages += batch.len() as u64;
+        self.send(Job::Messages(batch));
     }
 
     /// Messages given to the thread so far.
@@ -79,9 +93,9 @@ impl Storage {
         self.messages
     }
 
-    /// Messages that wait to be written.
-    pub(crate) fn queued(&self) -> usize {
-        self.jobs.len()
+    /// Bytes of messages that wait to be written.
+    pub(crate) fn queued_bytes(&self) -> usize {
+        self.waiting.load(Ordering::Relaxed)
     }
 
     /// How often the queue was full.
@@ -102,16 +116,14 @@ impl Storage {
 
     /// A thread that is gone is noticed by `has_failed`; what is sent to it goes nowhere.
     fn send(&mut self, job: Job) {
-        if let Err(TrySendError::Full(job)) = self.jobs.try_send(job) {
-            self.held_up += 1;
-            let _ = self.jobs.send(job);
-        }
+        let _ = self.jobs.send(job);
     }
 }
 
 fn write(
     mut writer: Writer,
     queue: &Receiver<Job>,
+    waiting: &AtomicUsize,
     definition_of: impl Fn(&str, &str) -> MessageDefinition,
 ) -> anyhow::Result<Written> {
     let mut topics: Vec<TopicId> = Vec::new();
@@ -123,9 +135,13 @@ fn write(
                 let topic = Topic { name, type_name, serialization_format, offered_qos, definition };
                 topics.push(writer.add_topic(topic)?);
             }
-            Ok(Job::Message { topic, log_time_ns, data }) => {
-                let topic = topics.get(topic).ok_or_else(|| anyhow!("a message came before its topic"))?;
-                writer.write(*topic, log_time_ns, &data)?;
+            Ok(Job::Messages(batch)) => {
+                for (topic, log_time_ns, data) in batch.messages() {
+                    let topic =
+                        topics.get(topic).ok_or_else(|| anyhow!("a message came before its topic"))?;
+                    writer.write(*topic, log_time_ns, data)?;
+                }
+                waiting.fetch_sub(batch.bytes(), Ordering::Relaxed);
             }
             Err(RecvTimeoutError::Timeout) => writer.flush()?,
             Err(RecvTimeoutError::Disconnected) => return Ok(writer.close()?),
@@ -141,25 +157,28 @@ mod tests {
     fn start(directory: &std::path::Path) -> (Storage, Receiver<String>) {
         let writer = Writer::create(directory, "").unwrap();
         let nowhere = MessageDefinitions::new(Vec::new());
-        let (warnings, warned) = bounded(10);
+        let (warnings, warned) = unbounded();
         let warn = move |text: &str| warnings.send(text.to_owned()).unwrap();
         (Storage::start(writer, Box::new(move |name| nowhere.get(name)), Box::new(warn)).unwrap(), warned)
     }
 
     #[test]
-    fn everything_is_stored_in_order_although_the_queue_overflows() {
+    fn everything_is_stored_in_order_although_the_queue_gets_full() {
         let directory = std::env::temp_dir().join(format!("bag_replay_storage_{}", std::process::id()));
         let (mut storage, warned) = start(&directory);
         let number = storage.add_topic("/a", "std_msgs/msg/Bool", Vec::new());
-        let count = 2 * QUEUE_MESSAGES as u64 + 10;
+        let large = vec![7; 1 << 20];
+        let count = 2 * (QUEUE_BYTES >> 20) as u64 + 10;
         for i in 0..count {
-            storage.store(number, i, i.to_le_bytes().to_vec());
+            let mut batch = Batch::default();
+            batch.push(number, i, &[&i.to_le_bytes()[..], &large].concat());
+            storage.store(batch);
         }
         assert_eq!(storage.messages(), count);
         let written = storage.finish().unwrap();
         assert!(warned.recv().unwrap().contains("/a is recorded without the text of its type"));
         let recording = Recording::open(&directory).unwrap();
-        let data: Vec<_> = recording.messages().map(|message| message.unwrap().data).collect();
+        let data: Vec<_> = recording.messages().map(|message| message.unwrap().data[..8].to_vec()).collect();
         std::fs::remove_dir_all(&directory).unwrap();
         assert_eq!(written.message_counts, [("/a".to_owned(), count)]);
         assert!(data.iter().zip(0..count).all(|(data, i)| *data == i.to_le_bytes()));
