@@ -11,6 +11,7 @@ use mcap::write::NoSeek;
 use crate::error::Error;
 use crate::metadata::{Metadata, TopicMetadata, TopicWithCount};
 use crate::qos;
+use crate::reader::Message;
 use crate::topic::Topic;
 
 /// A chunk goes to the file when it is this large (the encoder sees to that) ...
@@ -103,12 +104,13 @@ impl Writer {
         &self.directory
     }
 
-    /// Adds a topic. Topics can be added at any time.
+    /// Adds a topic. Topics can be added at any time. Two may have the same name with different types.
     ///
     /// # Errors
     /// When the topic is there already, or the file cannot be written.
     pub fn add_topic(&mut self, topic: Topic) -> Result<TopicId, Error> {
-        if self.topics.iter().any(|known| known.topic.name == topic.name) {
+        let is_same = |known: &Topic| known.name == topic.name && known.type_name == topic.type_name;
+        if self.topics.iter().any(|known| is_same(&known.topic)) {
             return Err(Error::TopicTwice { topic: topic.name });
         }
         let definition = &topic.definition;
@@ -135,6 +137,28 @@ impl Writer {
     /// # Errors
     /// When the file cannot be written; nothing more can then be recorded.
     pub fn write(&mut self, topic: TopicId, log_time_ns: u64, data: &[u8]) -> Result<(), Error> {
+        let written = self.topics.get(topic.0).map_or(0, |channel| channel.message_count);
+        // The sequence is 32 bits and starts again after that.
+        self.put(topic, (written + 1) as u32, log_time_ns, log_time_ns, data)
+    }
+
+    /// Appends a message of another recording as a message of `topic`, with its sequence and times.
+    ///
+    /// # Errors
+    /// When the file cannot be written; nothing more can then be recorded.
+    pub fn copy(&mut self, topic: TopicId, message: &Message) -> Result<(), Error> {
+        let Message { sequence, log_time_ns, publish_time_ns, ref data, .. } = *message;
+        self.put(topic, sequence, log_time_ns, publish_time_ns, data)
+    }
+
+    fn put(
+        &mut self,
+        topic: TopicId,
+        sequence: u32,
+        log_time_ns: u64,
+        publish_time_ns: u64,
+        data: &[u8],
+    ) -> Result<(), Error> {
         if self.unflushed_since_ns.is_some_and(|first_ns| log_time_ns.abs_diff(first_ns) >= CHUNK_SPAN_NS) {
             self.flush()?;
         }
@@ -145,10 +169,9 @@ impl Writer {
         };
         let header = MessageHeader {
             channel_id: channel.id,
-            // The sequence is 32 bits and starts again after that.
-            sequence: (channel.message_count + 1) as u32,
+            sequence,
             log_time: log_time_ns,
-            publish_time: log_time_ns,
+            publish_time: publish_time_ns,
         };
         self.mcap.write_to_known_channel(&header, data).map_err(Error::write(&self.file_path))?;
         channel.message_count += 1;
