@@ -51,3 +51,9 @@ pub const GET_AVAILABLE_TRANSITIONS: ServiceName<GetAvailableTransitions::Servic
 /// Lifecycle: every transition there is.
 pub const GET_TRANSITION_GRAPH: ServiceName<GetAvailableTransitions::Service> =
     ServiceName::new("~/get_transition_graph");
+/// Replay: send nothing until `resume` or `step`.
+pub const PAUSE: ServiceName<Trigger::Service> = ServiceName::new("~/pause");
+/// Replay: go on.
+pub const RESUME: ServiceName<Trigger::Service> = ServiceName::new("~/resume");
+/// Replay, while it pauses: send what comes next, up to and including the next pose.
+pub const STEP: ServiceName<Trigger::Service> = ServiceName::new("~/step");
