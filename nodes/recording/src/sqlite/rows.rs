@@ -1,0 +1,198 @@
+//! What counts as a message, and how messages are put together to blocks: the same for a whole and a broken database.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::block::{Block, FileIndex, MAX_BLOCK_BYTES, Place};
+
+/// A block is closed when it has this many bytes in memory,
+const BLOCK_BYTES: u64 = 1 << 20;
+/// or this many messages.
+const BLOCK_ROWS: usize = 1 << 13;
+/// How often the bytes of a file may be claimed by its rows. In a whole file it is once; broken rows claim at random, and
+/// a hostile file has thousands of rows that share the same pages.
+const CLAIMS: u64 = 16;
+
+/// A row of the table `messages` without its data.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    pub(super) id: i64,
+    /// `None` where no integer is stored.
+    pub(super) topic_id: Option<i64>,
+    /// ns since 1970; `None` where no integer is stored.
+    pub(super) timestamp: Option<i64>,
+    /// `None` where no blob is stored.
+    pub(super) data: Option<Size>,
+}
+
+/// How large the data of a message are, bytes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Size {
+    pub(super) stored: u64,
+    pub(super) in_memory: u64,
+}
+
+/// A row that is a message.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Accepted {
+    pub(super) channel: u32,
+    pub(super) log_time_ns: u64,
+}
+
+/// Why a row is none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Refusal {
+    Topic,
+    Time,
+    Data,
+    Size,
+    /// Larger than the file, or behind rows that are so together.
+    Claim,
+}
+
+impl Refusal {
+    fn sentence(self) -> &'static str {
+        match self {
+            Self::Topic => "belong to a topic that is nowhere described",
+            Self::Time => "have a negative time or none",
+            Self::Data => "have something else than bytes as their data",
+            Self::Size => "are larger than the accepted 67108864 bytes",
+            Self::Claim => "claim more bytes than the file has",
+        }
+    }
+}
+
+/// The topics by their ids in the database; the number in a recording is their place in this order.
+#[derive(Debug, Default)]
+pub(super) struct Topics {
+    numbers: BTreeMap<i64, u32>,
+}
+
+impl Topics {
+    pub(super) fn new(ids: impl Iterator<Item = i64>) -> Self {
+        Self { numbers: (0..).zip(ids).map(|(number, id)| (id, number)).collect() }
+    }
+
+    pub(super) fn accept(&self, row: &Row) -> Result<Accepted, Refusal> {
+        let channel = row.topic_id.and_then(|id| self.numbers.get(&id)).copied().ok_or(Refusal::Topic)?;
+        let log_time_ns =
+            row.timestamp.and_then(|time| u64::try_from(time).ok()).ok_or(Refusal::Time)?;
+        let size = row.data.ok_or(Refusal::Data)?;
+        if size.in_memory > MAX_BLOCK_BYTES || size.stored > MAX_BLOCK_BYTES {
+            return Err(Refusal::Size);
+        }
+        Ok(Accepted { channel, log_time_ns })
+    }
+}
+
+/// Collects the rows of a file in stored order.
+pub(super) struct Collector<'a> {
+    topics: &'a Topics,
+    index: &'a mut FileIndex,
+    len: u64,
+    /// Bytes that the rows to come may claim.
+    unclaimed: u64,
+    block: Unfinished,
+    refused: BTreeMap<Refusal, Refused>,
+}
+
+#[derive(Default)]
+struct Unfinished {
+    start_ns: u64,
+    end_ns: u64,
+    bytes: u64,
+    rows: usize,
+    channels: BTreeSet<u32>,
+}
+
+struct Refused {
+    count: u64,
+    first: Row,
+}
+
+/// What became of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Taken {
+    /// It is no message.
+    No,
+    /// It is in the block before or the first one.
+    Same,
+    /// It begins a block.
+    Next,
+}
+
+impl<'a> Collector<'a> {
+    /// For a file of `len` bytes.
+    pub(super) fn new(topics: &'a Topics, index: &'a mut FileIndex, len: u64) -> Self {
+        let unclaimed = len.saturating_mul(CLAIMS);
+        Self { topics, index, len, unclaimed, block: Unfinished::default(), refused: BTreeMap::new() }
+    }
+
+    /// Takes the next row.
+    pub(super) fn take(&mut self, row: &Row) -> Taken {
+        let accepted = self.topics.accept(row).and_then(|accepted| {
+            let stored = row.data.map_or(0, |size| size.stored);
+            if stored > self.len {
+                return Err(Refusal::Claim);
+            }
+            // When it is used up, nothing behind it is taken any more: blocks are ranges of rows.
+            let left = self.unclaimed.checked_sub(stored);
+            self.unclaimed = left.unwrap_or(0);
+            left.map(|_| accepted).ok_or(Refusal::Claim)
+        });
+        let accepted = match accepted {
+            Ok(accepted) => accepted,
+            Err(refusal) => {
+                self.refused.entry(refusal).or_insert(Refused { count: 0, first: *row }).count += 1;
+                return Taken::No;
+            }
+        };
+        let bytes = row.data.map_or(0, |size| size.in_memory);
+        let block = &self.block;
+        let is_full = block.rows == BLOCK_ROWS || (block.rows > 0 && block.bytes + bytes > BLOCK_BYTES);
+        if is_full {
+            self.close();
+        }
+        let block = &mut self.block;
+        if block.rows == 0 {
+            (block.start_ns, block.end_ns) = (accepted.log_time_ns, accepted.log_time_ns);
+        }
+        block.start_ns = block.start_ns.min(accepted.log_time_ns);
+        block.end_ns = block.end_ns.max(accepted.log_time_ns);
+        block.bytes += bytes;
+        block.rows += 1;
+        block.channels.insert(accepted.channel);
+        if let Some(topic) = self.index.topics.get_mut(&accepted.channel) {
+            topic.message_count += 1;
+        }
+        if is_full { Taken::Next } else { Taken::Same }
+    }
+
+    fn close(&mut self) {
+        let block = std::mem::take(&mut self.block);
+        if block.rows > 0 {
+            self.index.blocks.push(Block {
+                start_ns: block.start_ns,
+                end_ns: block.end_ns,
+                channels: Some(block.channels.into_iter().collect()),
+                place: Place::Sqlite { part: self.index.blocks.len() },
+            });
+        }
+    }
+
+    /// Closes the last block. The sentences say which rows were no messages, with the first of each kind.
+    pub(super) fn finish(mut self) -> Vec<(i64, String)> {
+        self.close();
+        let sentence = |(refusal, Refused { count, first }): (&Refusal, &Refused)| {
+            let value = match refusal {
+                Refusal::Topic => first.topic_id.map(|id| format!(" (topic_id {id})")),
+                Refusal::Time => first.timestamp.map(|time| format!(" ({time} ns)")),
+                Refusal::Size => first.data.map(|size| format!(" ({} bytes)", size.in_memory)),
+                Refusal::Data | Refusal::Claim => None,
+            };
+            let Row { id, .. } = first;
+            let sentence = refusal.sentence();
+            (*id, format!("{count} messages that {sentence}; the first has id {id}{}", value.unwrap_or_default()))
+        };
+        self.refused.iter().map(sentence).collect()
+    }
+}
