@@ -1,37 +1,26 @@
-//! One device: its topics, its contact with the body, and the answer to each of its poses.
+//! One device: its topics, and the answer to each of its poses.
 
 use std::time::{Duration, Instant};
 
-use node_kit::{
-    FrameTree, Inbox, Log, NodeKit, PublishError, Publisher, StartError, Status, Throttle, convert, topics,
-};
+use node_kit::{Inbox, Log, NodeKit, PublishError, Publisher, StartError, Status, Throttle, convert, topics};
 use r2r::geometry_msgs::msg::{PoseStamped, WrenchStamped};
 use r2r::rhombus_haptics_msgs::msg::{ContactLaw, ContactState};
 use r2r::sensor_msgs::msg::{JointState, Joy};
 use r2r::std_msgs::msg::Bool;
-use rhombus_chain::{Answer, Body, DeviceSession, HandPose, Rejection, Tissue};
+use rhombus_chain::{Answer, MeasuredPose, Rejection, Session, Tissue};
 
 use crate::counters::Counters;
 use crate::messages::Messages;
-use crate::place::Place;
+use crate::surface::Surface;
 
 /// Time between two log lines about rejected poses of one device.
 const LOG_PERIOD: Duration = Duration::from_secs(1);
 
-/// What the poses of all devices meet.
-pub(crate) struct World<'a> {
-    pub(crate) body: &'a Body,
-    pub(crate) tissue: &'a Tissue,
-    pub(crate) frames: &'a FrameTree,
-    pub(crate) body_frame: &'a str,
-}
-
 /// One device on the body.
 pub(crate) struct Device {
     subject: String,
-    session: DeviceSession,
-    place: Place,
-    close_below_rad: f64,
+    /// Its number in the session.
+    index: usize,
     poses: Inbox<PoseStamped>,
     grasp: Inbox<Bool>,
     gripper: Inbox<JointState>,
@@ -48,16 +37,14 @@ impl Device {
     /// `name` is the sub-namespace of the device's topics; "" is the node's own namespace.
     pub(crate) fn new(
         kit: &mut NodeKit,
+        index: usize,
         name: &str,
         tissue: &Tissue,
         scene: &scene::Scene,
     ) -> Result<Device, StartError> {
-        let motion_scale = scene.device.motion_scale;
         Ok(Device {
             subject: if name.is_empty() { "device".to_owned() } else { name.to_owned() },
-            session: DeviceSession::new(motion_scale),
-            place: Place::default(),
-            close_below_rad: scene.grasp.close_below_rad,
+            index,
             poses: kit.subscribe(&topics::MEASURED_CP, name)?,
             grasp: kit.subscribe(&topics::GRASP, name)?,
             gripper: kit.subscribe(&topics::GRIPPER_MEASURED_JS, name)?,
@@ -65,41 +52,64 @@ impl Device {
             force: kit.publish(&topics::SERVO_CF, name)?,
             law: kit.publish(&topics::CONTACT_LAW, name)?,
             state: kit.publish(&topics::CONTACT_STATE, name)?,
-            messages: Messages::new(tissue, motion_scale),
+            messages: Messages::new(tissue, scene.device.motion_scale),
             counters: Counters::new(),
             rejections: Throttle::new(LOG_PERIOD),
         })
     }
 
-    /// Answer every pose that has arrived, oldest first. The stamp of the newest one.
-    pub(crate) fn turn(&mut self, world: &World<'_>, log: &Log) -> Result<Option<i64>, PublishError> {
-        self.read_buttons();
-        let mut newest_ns = None;
-        while let Some(pose) = self.poses.take() {
-            self.step(world, log, &pose)?;
-            newest_ns = Some(convert::stamp_ns(&pose.header.stamp));
+    /// Grasp, gripper and clutch, as they were last said; they count from the next pose on. The number of messages.
+    pub(crate) fn hear_buttons(&mut self, session: &mut Session) -> u64 {
+        let mut heard = 0;
+        while let Some(grasp) = self.grasp.take() {
+            heard += 1;
+            session.command_grasp(self.index, grasp.data);
         }
-        Ok(newest_ns)
+        while let Some(gripper) = self.gripper.take() {
+            heard += 1;
+            if !session.hear_gripper(self.index, gripper.position.first().copied()) {
+                self.counters.ignored_input();
+            }
+        }
+        while let Some(joy) = self.clutch.take() {
+            heard += 1;
+            if !session.hear_clutch(self.index, joy.buttons.first().copied()) {
+                self.counters.ignored_input();
+            }
+        }
+        heard
+    }
+
+    /// Answer every pose that has arrived, oldest first, each followed by the surface if that is due.
+    pub(crate) fn answer(
+        &mut self,
+        session: &mut Session,
+        surface: &mut Surface,
+        log: &Log,
+    ) -> Result<(), PublishError> {
+        while let Some(pose) = self.poses.take() {
+            self.step(session, log, &pose)?;
+            if let Some(moment) = session.surface_if_due() {
+                surface.publish(&moment)?;
+            }
+        }
+        Ok(())
     }
 
     /// One pose, one force: first what the hand waits for, then the rest.
-    fn step(&mut self, world: &World<'_>, log: &Log, pose: &PoseStamped) -> Result<(), PublishError> {
+    fn step(&mut self, session: &mut Session, log: &Log, pose: &PoseStamped) -> Result<(), PublishError> {
         let taken = Instant::now();
-        let hand = self.locate(world, pose);
-        let answer = self.session.answer(world.body, world.tissue, &hand);
+        let measured = MeasuredPose {
+            stamp_ns: convert::stamp_ns(&pose.header.stamp),
+            frame_id: &pose.header.frame_id,
+            frame_from_hand: convert::pose_array(&pose.pose),
+        };
+        let answer = session.answer(self.index, &measured);
         self.publish_force(pose, &answer)?;
         self.counters.answered(&answer, taken.elapsed());
         self.publish_contact(pose, &answer)?;
         self.report_rejection(log, pose, &answer);
         Ok(())
-    }
-
-    fn locate(&mut self, world: &World<'_>, pose: &PoseStamped) -> HandPose {
-        HandPose {
-            stamp_ns: convert::stamp_ns(&pose.header.stamp),
-            frame_from_hand: convert::pose_array(&pose.pose),
-            body_from_frame: self.place.find(world.frames, world.body_frame, &pose.header.frame_id),
-        }
     }
 
     fn publish_force(
@@ -129,35 +139,9 @@ impl Device {
         }
     }
 
-    /// Grasp, gripper and clutch, as they were last said; they count from the next pose on.
-    fn read_buttons(&mut self) {
-        while let Some(grasp) = self.grasp.take() {
-            self.session.command_grasp(grasp.data);
-        }
-        while let Some(gripper) = self.gripper.take() {
-            match gripper.position.first() {
-                Some(angle_rad) if angle_rad.is_finite() => {
-                    self.session.set_gripper_closed(*angle_rad < self.close_below_rad);
-                }
-                _ => self.counters.ignored_input(),
-            }
-        }
-        while let Some(joy) = self.clutch.take() {
-            match joy.buttons.first() {
-                Some(button) => self.session.set_clutched(*button != 0),
-                None => self.counters.ignored_input(),
-            }
-        }
-    }
-
     /// Take over settings that were changed while the node runs.
-    pub(crate) fn retune(&mut self, tissue: &Tissue, scene: &scene::Scene) {
-        self.close_below_rad = scene.grasp.close_below_rad;
-        self.messages.set_chains(tissue, self.session.motion_scale());
-    }
-
-    pub(crate) fn session(&self) -> &DeviceSession {
-        &self.session
+    pub(crate) fn retune(&mut self, tissue: &Tissue, motion_scale: f64) {
+        self.messages.set_chains(tissue, motion_scale);
     }
 
     pub(crate) fn counters(&self) -> &Counters {

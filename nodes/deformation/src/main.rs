@@ -6,12 +6,11 @@
 
 mod counters;
 mod device;
+mod heard;
 mod live;
 mod messages;
 mod model;
 mod node;
-mod place;
-mod session_time;
 mod surface;
 
 use std::process::ExitCode;

@@ -5,11 +5,10 @@ use node_kit::convert;
 use r2r::geometry_msgs::msg::WrenchStamped;
 use r2r::rhombus_haptics_msgs::msg::{ContactLaw, ContactState};
 use r2r::std_msgs::msg::Header;
-use rhombus_chain::{Answer, ChainParameters, Formulation, LocalLaw, Mode, Tissue, chain_for_hand};
-
-/// How long after its pose a contact law may be used. Longer than the gaps of a loaded machine, shorter than it takes a
-/// hand to get to where the plane of the law has nothing to do with the surface.
-const LAW_VALIDITY_NS: i64 = 50_000_000;
+use rhombus_chain::{
+    Answer, ChainParameters, ContactReport, Formulation, LAW_VALIDITY_NS, LocalLaw, Mode, Tissue,
+    chain_for_hand,
+};
 
 /// The three messages that answer a pose.
 pub(crate) struct Messages {
@@ -73,10 +72,7 @@ impl Messages {
         self.law.stiffness_factor = law.stiffness_factor;
         self.law.stiffness_gradient = convert::vector(law.stiffness_gradient_per_m);
         self.law.lateral_stiffness = law.lateral_stiffness_n_per_m;
-        match answer {
-            Some(answer) => fill_state(&mut self.state, answer),
-            None => fill_state_without_answer(&mut self.state),
-        }
+        fill_state(&mut self.state, &answer.map_or(ContactReport::default(), ContactReport::from));
     }
 }
 
@@ -93,27 +89,16 @@ fn mode_number(mode: Mode) -> u8 {
     }
 }
 
-fn fill_state(state: &mut ContactState, answer: &Answer) {
-    let (step, frame) = (&answer.step, &answer.frame_from_body);
-    state.mode = mode_number(step.mode);
-    state.saturated = step.saturated;
-    state.clutched = answer.clutched;
-    state.probe = convert::point(frame.transform_point(answer.probe_in_body));
-    let touched = step.surface_point.filter(|_| step.mode != Mode::None);
-    state.face = touched.map_or(0, |at| at.face);
-    let barycentric = touched.map_or(DVec3::ZERO, |at| at.barycentric);
-    state.barycentric.copy_from_slice(&barycentric.to_array());
-    state.proxy = convert::point(touched.map_or(DVec3::ZERO, |_| frame.transform_point(step.proxy)));
-    state.normal = convert::vector(frame.rotate(step.normal));
-    state.depth = step.depth_m;
-    state.force = step.normal_force_n;
-    state.stiffness = step.stiffness_n_per_m;
-}
-
-fn fill_state_without_answer(state: &mut ContactState) {
-    *state = ContactState {
-        header: std::mem::take(&mut state.header),
-        barycentric: convert::three(DVec3::ZERO),
-        ..ContactState::default()
-    };
+fn fill_state(state: &mut ContactState, contact: &ContactReport) {
+    state.mode = mode_number(contact.mode);
+    state.saturated = contact.saturated;
+    state.clutched = contact.clutched;
+    state.face = contact.face;
+    state.barycentric.copy_from_slice(&contact.barycentric.to_array());
+    state.probe = convert::point(contact.probe);
+    state.proxy = convert::point(contact.proxy);
+    state.normal = convert::vector(contact.normal);
+    state.depth = contact.depth_m;
+    state.force = contact.force_n;
+    state.stiffness = contact.stiffness_n_per_m;
 }

@@ -3,15 +3,15 @@
 use std::time::Duration;
 
 use anyhow::Result;
-use node_kit::{Change, FrameTree, Level, NodeKit, Status, TransformListener, convert, topics};
-use rhombus_chain::{Body, Tissue};
+use node_kit::{Change, Level, NodeKit, Status, TransformListener, convert, topics};
+use rhombus_chain::Session;
 use scene::Scene;
 use serde_json::json;
 
-use crate::device::{Device, World};
+use crate::device::Device;
+use crate::heard::Heard;
 use crate::live::InContact;
 use crate::model;
-use crate::session_time::SessionTime;
 use crate::surface::Surface;
 
 /// Longest wait for a pose; how late a signal to end is seen.
@@ -19,14 +19,12 @@ const WAIT: Duration = Duration::from_millis(50);
 
 /// Everything the node has.
 struct Deformation {
-    body: Body,
-    tissue: Tissue,
-    frames: FrameTree,
-    body_frame: String,
+    session: Session,
     transforms: TransformListener,
     devices: Vec<Device>,
     surface: Surface,
-    time: SessionTime,
+    /// Only for a replay in lockstep.
+    heard: Option<Heard>,
     in_contact: InContact,
     mesh_warnings: Vec<String>,
 }
@@ -52,12 +50,12 @@ pub(crate) fn run(kit: &mut NodeKit) -> Result<()> {
 impl Deformation {
     fn new(kit: &mut NodeKit) -> Result<Deformation> {
         let scene = Scene::from_parameters(kit.parameters().clone())?;
-        let tissue = scene.tissue()?;
-        let loaded = scene.load_body().map_err(|error| match error.key {
+        let loaded = scene.load_session(kit.namespace()).map_err(|error| match error.key {
             Some(_) => anyhow::Error::new(error),
             None => anyhow::Error::new(error).context("body.mesh"),
         })?;
-        for (name, value) in model::computed(tissue.law()) {
+        let session = loaded.session;
+        for (name, value) in model::computed(session.tissue().law()) {
             kit.show_computed(name, value)?;
         }
         let in_contact = InContact::default();
@@ -65,59 +63,55 @@ impl Deformation {
         let mesh_warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
         mesh_warnings.iter().for_each(|warning| kit.log().warn(warning));
 
-        let body_frame = kit.frame_id(&scene.body.frame_id);
-        let mesh = convert::mesh(loaded.body.mesh().vertices(), loaded.body.mesh().triangles());
-        let mut surface = Surface::new(body_frame.clone(), convert::topology_version(&mesh));
-        surface.set_rate(kit, &scene, &loaded.body, &tissue)?;
-        kit.publish(&topics::BODY_MESH, "")?.publish(&mesh)?;
-        let names = &scene.session.devices;
+        let rest = session.body().mesh();
+        kit.publish(&topics::BODY_MESH, "")?.publish(&convert::mesh(rest.vertices(), rest.triangles()))?;
+        let mut surface = Surface::new(session.body_frame(), loaded.topology_version);
+        if scene.surface.rate_hz > 0.0 {
+            surface.announce(kit)?;
+        }
+        let names = scene.session.devices.iter().enumerate();
         let devices: Result<Vec<Device>, _> =
-            names.iter().map(|name| Device::new(kit, name, &tissue, &scene)).collect();
+            names.map(|(index, name)| Device::new(kit, index, name, session.tissue(), &scene)).collect();
         Ok(Deformation {
-            frames: frames_from_parameters(kit, &scene),
             transforms: TransformListener::new(kit)?,
             devices: devices?,
-            body: loaded.body,
-            tissue,
-            body_frame,
+            heard: scene.replay.lockstep.then(|| Heard::new(kit)).transpose()?,
+            session,
             surface,
-            time: SessionTime::new(names.len()),
             in_contact,
             mesh_warnings,
         })
     }
 
-    /// Answer what has arrived, then publish the surface if it is due.
+    /// Hear what has been said of frames and buttons, then answer the poses that have arrived.
     fn turn(&mut self, kit: &NodeKit) -> Result<()> {
-        self.transforms.update(&mut self.frames);
-        let world = World {
-            body: &self.body,
-            tissue: &self.tissue,
-            frames: &self.frames,
-            body_frame: &self.body_frame,
-        };
-        let mut any = false;
-        for (index, device) in self.devices.iter_mut().enumerate() {
-            if let Some(stamp_ns) = device.turn(&world, kit.log())? {
-                self.time.hear(index, stamp_ns);
-                any = true;
-            }
+        let session = &mut self.session;
+        let transforms = self
+            .transforms
+            .update(|parent, child, transform| session.hear_transform(parent, child, transform));
+        let buttons = self.devices.iter_mut().map(|device| device.hear_buttons(session)).sum();
+        if let Some(heard) = &mut self.heard {
+            heard.add(buttons, transforms)?;
         }
-        if let Some(stamp_ns) = self.time.now_ns().filter(|_| any) {
-            self.in_contact.set(self.devices.iter().any(|device| device.counters().in_contact()));
-            let sessions = self.devices.iter().map(Device::session);
-            self.surface.step(&self.body, &self.tissue, stamp_ns, sessions)?;
+        for device in &mut self.devices {
+            device.answer(session, &mut self.surface, kit.log())?;
         }
+        self.in_contact.set(self.devices.iter().any(|device| device.counters().in_contact()));
         Ok(())
     }
 
     /// Take over parameters that were set while the node runs. They have been checked.
     fn retune(&mut self, kit: &mut NodeKit, changes: &[Change]) -> Result<()> {
         let scene = Scene::from_parameters(kit.parameters().clone())?;
-        self.tissue = scene.tissue()?;
-        self.devices.iter_mut().for_each(|device| device.retune(&self.tissue, &scene));
+        self.session.retune(scene.tissue()?, scene.grasp.close_below_rad);
+        let tissue = self.session.tissue();
+        self.devices.iter_mut().for_each(|device| device.retune(tissue, scene.device.motion_scale));
         if changes.iter().any(|change| change.name == "surface.rate") {
-            self.surface.set_rate(kit, &scene, &self.body, &self.tissue)?;
+            let at_rate = scene.surface_field(self.session.body(), tissue);
+            if at_rate.is_some() {
+                self.surface.announce(kit)?;
+            }
+            self.session.set_surface(at_rate);
         }
         for Change { name, value } in changes {
             kit.log().info(&format!("{name} is now {value}"));
@@ -135,7 +129,7 @@ impl Deformation {
             .with("active_contacts", contacts)
             .with("touched_vertices", self.surface.touched())
             .with("surfaces", self.surface.published())
-            .with("ignored_transforms", self.frames.ignored());
+            .with("ignored_transforms", self.session.frames().ignored());
         std::iter::once(body).chain(self.devices.iter_mut().map(Device::status)).collect()
     }
 
@@ -162,29 +156,14 @@ impl Deformation {
     }
 
     fn summary(&self) -> String {
+        let law = self.session.tissue().law();
         format!(
             "{} vertices, {} parallel chains ({}), {} {}",
-            self.body.mesh().vertices().len(),
-            self.tissue.law().chains().len(),
-            self.tissue.law().formulation(),
+            self.session.body().mesh().vertices().len(),
+            law.chains().len(),
+            law.formulation(),
             self.devices.len(),
             if self.devices.len() == 1 { "device" } else { "devices" },
         )
     }
-}
-
-/// Where the parameters put body and devices in the scene. With several devices `device.scene_from_device` is the place
-/// of all of them only when somebody says so; otherwise each driver says where its own stands, on `/tf_static`.
-fn frames_from_parameters(kit: &NodeKit, scene: &Scene) -> FrameTree {
-    let scene_frame = kit.frame_id(&scene.session.scene_frame_id);
-    let mut frames = FrameTree::new();
-    frames.set_from_parameters(&scene_frame, &kit.frame_id(&scene.body.frame_id), scene.body.scene_from_body);
-    let devices = &scene.session.devices;
-    if devices.len() == 1 || scene.parameters().is_given("device.scene_from_device") {
-        for device in devices {
-            let device_frame = kit.frame_id_of_device(device, &scene.device.frame_id);
-            frames.set_from_parameters(&scene_frame, &device_frame, scene.device.scene_from_device);
-        }
-    }
-    frames
 }

@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use devices::LawCommand;
-use node_kit::{convert, frames};
+use node_kit::convert;
 use r2r::rhombus_haptics_msgs::msg::ContactLaw as LawMessage;
-use rhombus_chain::{ChainParameters, ContactLaw, Formulation, LocalLaw, Mode, ParameterError};
+use rhombus_chain::{
+    ChainParameters, ContactLaw, Formulation, LocalLaw, Mode, ParameterError, frame_of_message,
+};
 use thiserror::Error;
 
 /// The normal's length may differ from 1 by this.
@@ -59,7 +61,7 @@ impl LawReader {
 
     /// The message as a command for the motor loop.
     pub(crate) fn read(&mut self, message: &LawMessage) -> Result<LawCommand, LawRefusal> {
-        let found = frames::frame_of_message(&message.header.frame_id);
+        let found = frame_of_message(&message.header.frame_id);
         if found != self.frame_id {
             return Err(LawRefusal::Frame { found: found.to_owned(), expected: self.frame_id.clone() });
         }

@@ -2,7 +2,7 @@
 //! agree, because a force in the wrong axes is a force in the wrong direction.
 
 use devices::Axes;
-use node_kit::frames;
+use rhombus_chain::frame_of_message;
 
 /// The two frames of a device.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,7 +30,7 @@ impl DeviceFrames {
 
     /// Whether a wrench that shall have these axes has them: its header names the frame, or none.
     pub(crate) fn check(&self, axes: Axes, frame_id: &str) -> Result<(), String> {
-        let (frame, own) = (frames::frame_of_message(frame_id), self.of(axes));
+        let (frame, own) = (frame_of_message(frame_id), self.of(axes));
         if frame.is_empty() || frame == own {
             return Ok(());
         }

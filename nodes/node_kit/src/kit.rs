@@ -14,9 +14,7 @@ use crate::parameters::{self, Change, ParameterServices, Store, TogetherCheck};
 use crate::security::Transport;
 use crate::services::ServiceName;
 use crate::topics::Topic;
-use crate::{
-    Inbox, PublishError, Publisher, Service, Shutdown, StartError, context, frames, shutdown, topics,
-};
+use crate::{Inbox, PublishError, Publisher, Service, Shutdown, StartError, context, shutdown, topics};
 
 /// Longest wait of one turn. A spin cannot be interrupted, so this bounds how late a signal is seen.
 const LONGEST_WAIT: Duration = Duration::from_millis(50);
@@ -102,24 +100,20 @@ impl NodeKit {
         &self.namespace
     }
 
-    /// The frame a parameter names; see [`frames::frame_id`].
+    /// The frame a parameter names; see [`scene::frame_id`].
     pub fn frame_id(&self, parameter: &str) -> String {
-        frames::frame_id(&self.namespace, parameter)
+        scene::frame_id(&self.namespace, parameter)
     }
 
-    /// The same for a parameter of the device with this sub-namespace: "left" and "device_base" give
-    /// "left/device_base", as the device's own node would say it.
+    /// The same for a parameter of the device with this sub-namespace; see [`scene::frame_id_of_device`].
     pub fn frame_id_of_device(&self, device: &str, parameter: &str) -> String {
-        if device.starts_with('/') {
-            return frames::frame_id(device, parameter);
-        }
-        frames::frame_id(&format!("{}/{device}", self.namespace), parameter)
+        scene::frame_id_of_device(&self.namespace, device, parameter)
     }
 
     /// The same for a parameter of the whole session, said by the driver of one of its `devices`, which stands in that
     /// device's sub-namespace: "/left", ["left", "right"] and "scene" give "scene", as the session's other nodes say it.
     pub fn frame_id_of_session(&self, devices: &[String], parameter: &str) -> String {
-        frames::frame_id(frames::session_namespace(&self.namespace, devices), parameter)
+        scene::frame_id(scene::session_namespace(&self.namespace, devices), parameter)
     }
 
     /// The parameters' present values, checked.

@@ -11,7 +11,6 @@ mod context;
 pub mod convert;
 mod diagnostics;
 mod error;
-pub mod frames;
 mod histogram;
 mod kit;
 mod log;
@@ -26,7 +25,6 @@ mod wire;
 
 pub use diagnostics::{Level, Status};
 pub use error::{PublishError, StartError};
-pub use frames::FrameTree;
 pub use histogram::Histogram;
 pub use kit::NodeKit;
 pub use log::{Log, Throttle};

@@ -1,11 +1,11 @@
-//! `/tf` and `/tf_static` into a [`FrameTree`], and transforms out.
+//! Transforms from `/tf` and `/tf_static`, and transforms out.
 
 use r2r::geometry_msgs::msg::TransformStamped;
 use r2r::std_msgs::msg::Header;
 use r2r::tf2_msgs::msg::TFMessage;
 use rhombus_chain::Pose;
 
-use crate::{FrameTree, Inbox, NodeKit, StartError, convert, topics};
+use crate::{Inbox, NodeKit, StartError, convert, topics};
 
 /// Hears the transforms of the whole graph.
 pub struct TransformListener {
@@ -22,16 +22,20 @@ impl TransformListener {
         })
     }
 
-    /// Take over what arrived since the last turn.
-    pub fn update(&mut self, frames: &mut FrameTree) {
+    /// Hand over what arrived since the last turn, as `(parent, child, parent_from_child)` with the transform as
+    /// `[x, y, z, qx, qy, qz, qw]`, unchecked. The number of messages.
+    pub fn update(&mut self, mut hear: impl FnMut(&str, &str, [f64; 7])) -> u64 {
+        let mut messages = 0;
         for inbox in [&mut self.fixed, &mut self.moving] {
             while let Some(message) = inbox.take() {
+                messages += 1;
                 for transform in &message.transforms {
                     let parent_from_child = convert::transform_array(&transform.transform);
-                    frames.hear(&transform.header.frame_id, &transform.child_frame_id, parent_from_child);
+                    hear(&transform.header.frame_id, &transform.child_frame_id, parent_from_child);
                 }
             }
         }
+        messages
     }
 }
 

@@ -19,7 +19,7 @@ use r2r::rhombus_haptics_msgs::msg::{ContactLaw, ContactState, SurfaceDisplaceme
 use r2r::rosgraph_msgs::msg::Clock;
 use r2r::sensor_msgs::msg::{JointState, Joy};
 use r2r::shape_msgs::msg::Mesh;
-use r2r::std_msgs::msg::{Bool, Empty};
+use r2r::std_msgs::msg::{Bool, Empty, UInt64};
 use r2r::tf2_msgs::msg::TFMessage;
 use r2r::visualization_msgs::msg::MarkerArray;
 
@@ -113,6 +113,11 @@ pub const CONTACT_STATE: Topic<ContactState> = Topic::new("contact_state", relia
 pub const SURFACE_DISPLACEMENT: Topic<SurfaceDisplacement> = Topic::new("surface_displacement", reliable(10));
 /// The rest surface: deformation, latched.
 pub const BODY_MESH: Topic<Mesh> = Topic::new("body_mesh", latched(1));
+/// Messages on grasp, gripper and clutch of all devices that the model has taken into account since its start:
+/// deformation, latched, for a replay in lockstep.
+pub const BUTTONS_HEARD: Topic<UInt64> = Topic::new("buttons_heard", latched(1));
+/// The same for messages on `/tf` and `/tf_static`.
+pub const TRANSFORMS_HEARD: Topic<UInt64> = Topic::new("transforms_heard", latched(1));
 /// What RViz draws: visualization.
 pub const MARKERS: Topic<MarkerArray> = Topic::new("markers", reliable(10));
 /// Health of every node at 1 Hz.
@@ -188,6 +193,8 @@ mod tests {
             row(&CONTACT_STATE),
             row(&SURFACE_DISPLACEMENT),
             row(&BODY_MESH),
+            row(&BUTTONS_HEARD),
+            row(&TRANSFORMS_HEARD),
             row(&MARKERS),
             row(&DIAGNOSTICS),
             row(&ROSOUT),

@@ -5,6 +5,10 @@ use glam::DVec3;
 use crate::chain::finite;
 use crate::contact_law::{ContactLaw, LawResponse};
 
+/// How long after its pose a contact law may be used, ns. Longer than the gaps of a loaded machine, shorter than it takes a
+/// hand to get to where the plane of the law has nothing to do with the surface.
+pub const LAW_VALIDITY_NS: i64 = 50_000_000;
+
 const LARGEST: DVec3 = DVec3::splat(f64::MAX);
 
 /// What the probe does to the body.

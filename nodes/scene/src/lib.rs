@@ -33,6 +33,7 @@ mod body;
 mod chains;
 mod drivers;
 mod error;
+mod frame_names;
 pub mod generate;
 mod haptic_loop;
 mod mesh_file;
@@ -43,6 +44,7 @@ mod plan;
 mod scene;
 pub mod schema;
 mod sections;
+mod session;
 mod settings;
 mod sites;
 mod stiffness_file;
@@ -53,6 +55,7 @@ mod yaml_value;
 pub use body::{LoadedBody, Warning};
 pub use chains::ChainSettings;
 pub use error::{Problem, SceneError};
+pub use frame_names::{frame_id, frame_id_of_device, session_namespace};
 pub use generate::BodyKind;
 pub use mesh_file::{MeshFile, Obj};
 pub use origin::Origin;
@@ -61,6 +64,7 @@ pub use plan::{LeftOut, Part, Plan, PlannedTopic, TopicState};
 pub use scene::Scene;
 pub use schema::{Check, DefaultValue, Kind, Length, Node, ParameterSpec, schema};
 pub use sections::Reader;
+pub use session::{LoadedSession, topology_version};
 pub use settings::{
     BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
     ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, VisualizationSettings,

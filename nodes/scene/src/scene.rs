@@ -142,6 +142,7 @@ impl Scene {
             replay: ReplaySettings {
                 path: non_empty(p.text("replay.path")?).map(PathBuf::from),
                 rate: p.double("replay.rate")?,
+                lockstep: p.bool("replay.lockstep")?,
             },
             parameters: p,
         })

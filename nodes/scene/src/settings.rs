@@ -169,4 +169,6 @@ pub struct ReplaySettings {
     pub path: Option<PathBuf>,
     /// Speed, 1 as recorded.
     pub rate: f64,
+    /// The next pose waits for the force of the last one.
+    pub lockstep: bool,
 }

@@ -2,10 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-use node_kit::{Inbox, Log, NodeKit, StartError, Throttle, convert, frames, topics};
+use node_kit::{Inbox, Log, NodeKit, StartError, Throttle, convert, topics};
 use r2r::geometry_msgs::msg::{PoseStamped, WrenchStamped};
 use r2r::rhombus_haptics_msgs::msg::{ContactState, SurfaceDisplacement};
 use r2r::shape_msgs::msg::Mesh;
+use rhombus_chain::frame_of_message;
 
 use crate::device_view::{DeviceView, InFrame, NotDrawable};
 use crate::messages;
@@ -173,13 +174,13 @@ impl DeviceInputs {
             seen.push(("contact_state", view.hear_contact(when, messages::contact(&state))));
         }
         if let Some((when, wrench)) = self.force.take() {
-            let frame_id = frames::frame_of_message(&wrench.header.frame_id).to_owned();
+            let frame_id = frame_of_message(&wrench.header.frame_id).to_owned();
             let force_n = InFrame { frame_id, value: convert::dvec3_of_vector(&wrench.wrench.force) };
             seen.push(("servo_cf", view.hear_force(when, force_n)));
         }
         if let Some((when, pose)) = self.pose.take() {
             self.stamp_ns = convert::stamp_ns(&pose.header.stamp);
-            let frame_id = frames::frame_of_message(&pose.header.frame_id).to_owned();
+            let frame_id = frame_of_message(&pose.header.frame_id).to_owned();
             seen.push(("measured_cp", view.hear_pose(when, frame_id, convert::pose_array(&pose.pose))));
         }
         seen

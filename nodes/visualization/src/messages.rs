@@ -1,12 +1,12 @@
 //! Between ROS messages and plain data.
 
 use glam::DVec3;
-use node_kit::{convert, frames};
+use node_kit::convert;
 use r2r::rhombus_haptics_msgs::msg::ContactState;
 use r2r::shape_msgs::msg::Mesh;
 use r2r::std_msgs::msg::{ColorRGBA, Header};
 use r2r::visualization_msgs::msg::{Marker, MarkerArray};
-use rhombus_chain::Pose;
+use rhombus_chain::{Pose, frame_of_message};
 
 use crate::colour::Colour;
 use crate::device_view::{Contact, Mode};
@@ -37,7 +37,7 @@ pub(crate) fn surface(mesh: &Mesh, topology_version: u32) -> Result<BodySurface,
 /// A contact, unchecked: whoever shows it judges it. A mode that is not known touches nothing.
 pub(crate) fn contact(state: &ContactState) -> Contact {
     Contact {
-        frame_id: frames::frame_of_message(&state.header.frame_id).to_owned(),
+        frame_id: frame_of_message(&state.header.frame_id).to_owned(),
         mode: match state.mode {
             CONTACT => Mode::Touch,
             GRASP => Mode::Grasp,

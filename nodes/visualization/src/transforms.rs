@@ -71,7 +71,7 @@ fn fixed_transforms(scene: &Scene, names: impl Fn(&str, &str) -> String) -> TFMe
 #[cfg(test)]
 mod tests {
     use super::*;
-    use node_kit::frames::frame_id;
+    use scene::frame_id;
     use scene::{Origin, Value};
 
     fn frames(namespace: &str, values: &[(&str, Value)]) -> Vec<(String, String)> {

@@ -58,9 +58,11 @@ const DEVICE: [Row; 22] = [
 ];
 
 /// One for the session; `~` is the node that publishes.
-const SESSION: [Row; 10] = [
+const SESSION: [Row; 12] = [
     ("surface_displacement", "rhombus_haptics_msgs/SurfaceDisplacement", "deformation", "visualization"),
     ("body_mesh", "shape_msgs/Mesh", "deformation", "visualization"),
+    ("buttons_heard", "std_msgs/UInt64", "deformation", "bag_replay"),
+    ("transforms_heard", "std_msgs/UInt64", "deformation", "bag_replay"),
     ("markers", "visualization_msgs/MarkerArray", "visualization", ""),
     ("~/transition_event", "lifecycle_msgs/TransitionEvent", "haptic_device", ""),
     ("/diagnostics", "diagnostic_msgs/DiagnosticArray", "every node", ""),
@@ -101,6 +103,9 @@ fn state(scene: &Scene, topic: &str) -> TopicState {
             TopicState::Absent("the simulated device has no weight")
         }
         "surface_displacement" if scene.surface.rate_hz <= 0.0 => TopicState::Absent("surface.rate is 0"),
+        "buttons_heard" | "transforms_heard" if !scene.replay.lockstep => {
+            TopicState::Absent("replay.lockstep is false")
+        }
         "markers" if !scene.has_markers() => TopicState::Silent("visualization.rate is 0"),
         "clutch" if scene.session.clutch_button.is_none() => TopicState::Absent("clutch.button is \"\""),
         "clock" if !scene.session.use_sim_time => TopicState::Absent("use_sim_time is false"),

@@ -1,42 +1,15 @@
-//! Frames: how a parameter names one, and where one is relative to another.
+//! Where frames are relative to another: what the parameters, `/tf` and `/tf_static` say.
 //!
 //! Transforms come from the parameters (where body and devices stand in the scene) and from `/tf` and `/tf_static`.
 //! A transform is the latest one heard: stamps are not interpolated, because the frames of a session (bases of
-//! devices, the body) stand still and a stale answer is better than a missing force. Nothing here needs ROS.
+//! devices, the body) stand still and a stale answer is better than a missing force.
 
 use std::collections::BTreeMap;
 
-use rhombus_chain::Pose;
+use crate::Pose;
 
 /// More frames than this are a broken publisher, not a scene.
 const MAX_FRAMES: usize = 10_000;
-
-/// The frame a parameter means: a relative name gets the node's namespace in front ("/left" and "device_base" give
-/// "left/device_base"), a leading "/" means the rest verbatim ("/PSM1_base" gives "PSM1_base").
-pub fn frame_id(namespace: &str, parameter: &str) -> String {
-    if let Some(verbatim) = parameter.strip_prefix('/') {
-        return verbatim.to_owned();
-    }
-    match namespace.trim_matches('/') {
-        "" => parameter.to_owned(),
-        namespace => format!("{namespace}/{parameter}"),
-    }
-}
-
-/// The namespace of the session that a device's driver works in: what stands before the name of its device, where
-/// `devices` has that name ("/or/left" and ["left", "right"] give "/or"), else its own namespace.
-pub fn session_namespace<'a>(namespace: &'a str, devices: &[String]) -> &'a str {
-    let own = namespace.trim_end_matches('/');
-    let names = devices.iter().map(|name| name.trim_end_matches('/'));
-    let before = names
-        .filter(|name| !name.is_empty() && !name.starts_with('/'))
-        .find_map(|name| own.strip_suffix(name)?.strip_suffix('/'));
-    match before {
-        Some("") => "/",
-        Some(session) => session,
-        None => namespace,
-    }
-}
 
 /// The frame of a message as tf knows it: without the leading "/" that older drivers still send.
 pub fn frame_of_message(frame_id: &str) -> &str {
@@ -162,23 +135,9 @@ mod tests {
     }
 
     #[test]
-    fn relative_frames_live_in_the_namespace_and_a_slash_means_verbatim() {
-        assert_eq!(frame_id("/", "device_base"), "device_base");
-        assert_eq!(frame_id("/left", "device_base"), "left/device_base");
-        assert_eq!(frame_id("/room/left", "device_base"), "room/left/device_base");
-        assert_eq!(frame_id("/left", "/PSM1_base"), "PSM1_base");
+    fn the_slash_of_older_drivers_is_no_part_of_a_frame() {
         assert_eq!(frame_of_message("/old_driver"), "old_driver");
-    }
-
-    #[test]
-    fn a_driver_finds_its_session_in_front_of_the_name_of_its_device() {
-        let both = ["left", "right"].map(str::to_owned);
-        assert_eq!(session_namespace("/left", &both), "/");
-        assert_eq!(session_namespace("/or/right", &both), "/or");
-        assert_eq!(session_namespace("/or/1/left", &["1/left/".to_owned()]), "/or");
-        assert_eq!(session_namespace("/cleft", &both), "/cleft", "another name");
-        assert_eq!(session_namespace("/or", &[String::new()]), "/or", "alone");
-        assert_eq!(session_namespace("/", &both), "/");
+        assert_eq!(frame_of_message("tool"), "tool");
     }
 
     #[test]

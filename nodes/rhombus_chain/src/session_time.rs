@@ -6,7 +6,7 @@ const SILENCE_NS: i64 = 500_000_000;
 /// The newest stamp of all devices that are at work. Their clocks and delays differ: taken as they come, the stamps of
 /// two devices would jump back and forth.
 #[derive(Clone, Debug)]
-pub(crate) struct SessionTime {
+pub struct SessionTime {
     devices: Vec<Clock>,
 }
 
@@ -18,12 +18,14 @@ struct Clock {
 }
 
 impl SessionTime {
-    pub(crate) fn new(devices: usize) -> SessionTime {
+    /// Nobody has said anything yet.
+    #[must_use]
+    pub fn new(devices: usize) -> SessionTime {
         SessionTime { devices: vec![Clock::default(); devices] }
     }
 
     /// A device's newest stamp. One that goes back takes the session's time back when no other device is ahead.
-    pub(crate) fn hear(&mut self, device: usize, stamp_ns: i64) {
+    pub fn hear(&mut self, device: usize, stamp_ns: i64) {
         let Some(clock) = self.devices.get_mut(device) else { return };
         let before_ns = clock.newest_ns.unwrap_or(stamp_ns);
         *clock = Clock { newest_ns: Some(stamp_ns), silent_ns: 0 };
@@ -37,7 +39,8 @@ impl SessionTime {
     }
 
     /// The newest stamp of the devices at work; none before the first pose.
-    pub(crate) fn now_ns(&self) -> Option<i64> {
+    #[must_use]
+    pub fn now_ns(&self) -> Option<i64> {
         self.devices.iter().filter_map(|clock| clock.newest_ns).max()
     }
 }
@@ -45,7 +48,7 @@ impl SessionTime {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rhombus_chain::StampRate;
+    use crate::StampRate;
 
     const MS: i64 = 1_000_000;
 
