@@ -9,7 +9,9 @@
 
 mod block;
 pub mod cdr;
+mod compare;
 mod definitions;
+mod digest;
 mod error;
 mod file;
 mod index;
@@ -21,7 +23,12 @@ mod reader;
 mod topic;
 mod writer;
 
+pub use compare::{
+    Bin, Change, Comparison, Counts, Divergence, FieldOutcome, Outcome, Presence, Signal, ToleranceError, Tolerances,
+    TopicOutcome, Unpaired, Value, ValueChange, Verdict, Worst,
+};
 pub use definitions::{DefinitionError, MessageDefinition, MessageDefinitions};
+pub use digest::{Digest, DigestError, DigestValue, digest_of};
 pub use error::Error;
 pub use qos::{Durability, History, Liveliness, Qos, QosTime, Reliability};
 pub use reader::{Message, Messages, Recording};
