@@ -1,4 +1,4 @@
-//! The records of an MCAP file, one at a time and never beyond the end of the file.
+//! The bytes of an MCAP file and the records in a buffer, never beyond the end.
 //!
 //! An MCAP file is a row of records: one byte that says the kind, eight that say the length, and the content. Lengths are
 //! checked against what is there before anything is read, so that a broken file costs an error and no memory.
@@ -16,40 +16,26 @@ use crate::error::Error;
 pub(crate) const HEAD: u64 = 9;
 /// Channel, sequence, log time and publish time in front of the data of a message.
 pub(crate) const MESSAGE_HEAD: usize = 22;
-/// Behind the last record: the footer with its head, and the magic bytes.
-pub(crate) const FOOTER_AND_MAGIC: u64 = HEAD + 20 + mcap::MAGIC.len() as u64;
 
 /// An open MCAP file.
 #[derive(Debug)]
 pub(crate) struct McapFile {
+    /// As it is called; the bytes may come from a decompressed copy.
     path: PathBuf,
     file: File,
     len: u64,
 }
 
-/// A record in a file: its kind and where its content lies.
-#[derive(Debug, Clone)]
-pub(crate) struct Place {
-    pub(crate) opcode: u8,
-    pub(crate) content: Range<u64>,
-}
-
 impl McapFile {
-    /// Opens a file and checks that it begins like MCAP.
-    pub(crate) fn open(path: &Path) -> Result<Self, Error> {
-        let file = File::open(path).map_err(Error::io(path, "open"))?;
+    /// Opens the file at `readable`, which is called `path` in every error.
+    pub(crate) fn open(readable: &Path, path: &Path) -> Result<Self, Error> {
+        let file = File::open(readable).map_err(Error::io(path, "open"))?;
         let len = file.metadata().map_err(Error::io(path, "open"))?.len();
-        let opened = Self { path: path.to_owned(), file, len };
-        let magic = mcap::MAGIC.len() as u64;
-        if len < magic || opened.read(0..magic)? != mcap::MAGIC {
-            let reason = if len == 0 {
-                "the file is empty"
-            } else {
-                "the file does not begin with the MCAP magic bytes"
-            };
-            return Err(Error::NotARecording { path: path.to_owned(), reason: reason.to_owned() });
+        if len == 0 {
+            let reason = "the file is empty".to_owned();
+            return Err(Error::NotARecording { path: path.to_owned(), reason });
         }
-        Ok(opened)
+        Ok(Self { path: path.to_owned(), file, len })
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -62,28 +48,20 @@ impl McapFile {
 
     /// The bytes of a range, which must lie in the file.
     pub(crate) fn read(&self, range: Range<u64>) -> Result<Vec<u8>, Error> {
-        let size = range.end.checked_sub(range.start).filter(|_| range.end <= self.len);
-        let size = size.and_then(|size| usize::try_from(size).ok()).ok_or_else(|| self.cut(range.start))?;
-        let mut bytes = vec![0; size];
-        self.file.read_exact_at(&mut bytes, range.start).map_err(Error::io(&self.path, "read"))?;
+        let mut bytes = Vec::new();
+        self.read_into(range, &mut bytes)?;
         Ok(bytes)
     }
 
-    /// The record that begins at `offset`.
-    pub(crate) fn record(&self, offset: u64) -> Result<Place, Error> {
-        let begin = offset.checked_add(HEAD).ok_or_else(|| self.cut(offset))?;
-        let head = self.read(offset..begin)?;
-        split_record(&head).map_or_else(
-            || Err(self.cut(offset)),
-            |(opcode, length)| match begin.checked_add(length).filter(|end| *end <= self.len) {
-                Some(end) => Ok(Place { opcode, content: begin..end }),
-                None => {
-                    let left = self.len - begin;
-                    let reason = format!("a record of {length} bytes, and {left} bytes are left in the file");
-                    Err(Error::damaged(&self.path, offset, reason))
-                }
-            },
-        )
+    /// The same, in place of what `bytes` held.
+    pub(crate) fn read_into(&self, range: Range<u64>, bytes: &mut Vec<u8>) -> Result<(), Error> {
+        let size = range.end.checked_sub(range.start).filter(|_| range.end <= self.len);
+        let size = size
+            .and_then(|size| usize::try_from(size).ok())
+            .ok_or_else(|| Error::damaged(&self.path, range.start, "the file ends inside a record"))?;
+        bytes.clear();
+        bytes.resize(size, 0);
+        self.file.read_exact_at(bytes, range.start).map_err(Error::io(&self.path, "read"))
     }
 
     /// The content of a record, parsed.
@@ -92,14 +70,10 @@ impl McapFile {
             Error::damaged(&self.path, offset, format!("record of kind {opcode:#04x}: {error}"))
         })
     }
-
-    fn cut(&self, offset: u64) -> Error {
-        Error::damaged(&self.path, offset, "the file ends inside a record")
-    }
 }
 
 /// Kind and length of a record from its first nine bytes.
-fn split_record(head: &[u8]) -> Option<(u8, u64)> {
+pub(crate) fn split_record(head: &[u8]) -> Option<(u8, u64)> {
     let (opcode, rest) = head.split_first()?;
     Some((*opcode, u64::from_le_bytes(*rest.first_chunk()?)))
 }

@@ -1,294 +1,375 @@
 //! Where everything is in an MCAP file: topics, counts, and the blocks that hold the messages.
 //!
-//! A closed file says its topics and counts in a summary at its end. A file whose recorder was killed has none; then the
-//! blocks themselves are read once. Either way the file is walked from the front, head by head, so that what an index
-//! fails to mention is found as well.
+//! A closed file says its topics and counts in a summary at its end. Where there is none, or it does not agree with what is
+//! there, the blocks themselves are read once. Either way the file is walked from the front, head by head, so that what
+//! an index fails to mention is found as well; and behind a broken place the walk goes on with the next record there is.
 
-use std::collections::BTreeMap;
-use std::ops::Range;
+use std::collections::{BTreeMap, BTreeSet};
 
-use mcap::records::{self, Record, op};
+use mcap::records::op;
 
+use crate::MessageDefinition;
+use crate::block::{Block, Chunk, FileIndex, MAX_BLOCK_BYTES, Place};
+use crate::chunk::{self, ChunkHead};
+use crate::compression;
 use crate::error::Error;
-use crate::file::{
-    FOOTER_AND_MAGIC, HEAD, MESSAGE_HEAD, McapFile, MessageHead, Place, records as records_in,
-};
+use crate::file::{HEAD, MESSAGE_HEAD, McapFile, MessageHead, records as records_in};
+use crate::fit::{Fit, View};
+use crate::qos;
+use crate::summary::{self, Definitions, Ending, Summary};
+use crate::topic::{RecordedTopic, Topic};
 
 /// Messages outside of chunks are taken together up to this many bytes.
-const LOOSE_BLOCK_BYTES: u64 = 1 << 20;
-/// Start, end, size, CRC and the length of the compression's name: the head of a chunk up to that name.
-const CHUNK_HEAD: usize = 8 + 8 + 8 + 4 + 4;
+const ROW_BYTES: u64 = 1 << 20;
+/// Broken places that are told one by one.
+const TOLD: usize = 1000;
 
-/// A piece of a file that holds records: the inside of a chunk, or a row of messages outside of chunks.
-#[derive(Debug, Clone)]
-pub(crate) struct Block {
-    /// Earliest log time in it, ns.
-    pub(crate) start_ns: u64,
-    /// Latest log time in it, ns.
-    pub(crate) end_ns: u64,
-    /// The records.
-    pub(crate) records: Range<u64>,
-    /// CRC-32 of the records; 0 where the writer computed none.
-    pub(crate) crc: u32,
-    /// Not a chunk: more messages may join it.
-    is_row: bool,
-}
-
-/// The text of a type as the file has it.
-#[derive(Debug, Clone)]
-pub(crate) struct Schema {
-    pub(crate) name: String,
-    pub(crate) encoding: String,
-    pub(crate) text: String,
-}
-
-/// What is in one file.
-#[derive(Debug, Default)]
-pub(crate) struct FileIndex {
-    pub(crate) schemas: BTreeMap<u16, Schema>,
-    pub(crate) channels: BTreeMap<u16, records::Channel>,
-    /// Messages of each channel.
-    pub(crate) counts: BTreeMap<u16, u64>,
-    /// In the order of the file.
-    pub(crate) blocks: Vec<Block>,
-    /// What had to be left out, and why.
-    pub(crate) damage: Vec<Error>,
-}
-
-impl FileIndex {
-    /// Walks through `file`.
-    ///
-    /// # Errors
-    /// For a compressed file or one the system does not let us read. Damage is noted in the index instead.
-    pub(crate) fn of(file: &McapFile) -> Result<Self, Error> {
-        let mut index = Self::default();
-        let has_summary = index.read_summary(file).unwrap_or(false);
-        if !has_summary {
-            index = Self::default();
+/// Finds what is in `file`. Its chunks may decompress to `allowance` bytes altogether.
+///
+/// # Errors
+/// When it has nothing of an MCAP file, or the system does not let us read. Damage is noted in the index instead.
+pub(crate) fn of(file: &McapFile, allowance: u64) -> Result<FileIndex, Error> {
+    let mut view = View::new(file);
+    let ending = summary::read(file)?;
+    if let Ending::Whole(summary) = &ending {
+        let mut walk = Walk::new(file, allowance, Some(summary));
+        walk.go(&mut view)?;
+        if walk.agrees_with(summary) {
+            walk.definitions = summary.definitions.clone();
+            walk.counts.clone_from(&summary.statistics.channel_message_counts);
+            return Ok(walk.finish());
         }
-        let mut offset = mcap::MAGIC.len() as u64;
-        loop {
-            if offset == file.len() {
-                let reason = "the file ends without its closing records: its recorder was stopped hard";
-                index.damage.push(Error::damaged(file.path(), offset, reason));
-                break;
+    }
+    let mut walk = Walk::new(file, allowance, None);
+    if let Ending::Whole(summary) = &ending
+        && summary.is_checked
+    {
+        walk.definitions = summary.definitions.clone();
+    }
+    walk.go(&mut view)?;
+    match ending {
+        Ending::Whole(summary) => {
+            walk.definitions.complete_from(&summary.definitions);
+            walk.compare_with(&summary);
+        }
+        Ending::Broken(error) if walk.is_closed => walk.note(error),
+        Ending::Broken(_) | Ending::Without => {}
+    }
+    let index = walk.finish();
+    let begins_well = view.bytes(0, mcap::MAGIC.len() as u64)? == mcap::MAGIC;
+    if !begins_well && index.blocks.is_empty() {
+        let reason = "the file does not begin with the MCAP magic bytes".to_owned();
+        return Err(Error::NotARecording { path: file.path().to_owned(), reason });
+    }
+    Ok(index)
+}
+
+/// A walk through a file.
+struct Walk<'a> {
+    file: &'a McapFile,
+    /// What the file says about itself, as long as it is believed.
+    summary: Option<&'a Summary>,
+    /// Bytes that chunks may still decompress to.
+    allowance: u64,
+    definitions: Definitions,
+    counts: BTreeMap<u16, u64>,
+    blocks: Vec<Block>,
+    chunks: u64,
+    loose_messages: u64,
+    damage: Vec<Error>,
+    untold: u64,
+    is_closed: bool,
+}
+
+impl<'a> Walk<'a> {
+    fn new(file: &'a McapFile, allowance: u64, summary: Option<&'a Summary>) -> Self {
+        Self {
+            file,
+            summary,
+            allowance,
+            definitions: Definitions::default(),
+            counts: BTreeMap::new(),
+            blocks: Vec::new(),
+            chunks: 0,
+            loose_messages: 0,
+            damage: Vec::new(),
+            untold: 0,
+            is_closed: false,
+        }
+    }
+
+    fn go(&mut self, view: &mut View<'_>) -> Result<(), Error> {
+        let magic = mcap::MAGIC.len() as u64;
+        let mut offset = magic;
+        if view.bytes(0, magic)? != mcap::MAGIC {
+            self.note(self.damaged(0, "the file does not begin with the MCAP magic bytes"));
+            // Bytes may be missing or too many here.
+            let is_whole_behind = matches!(view.fit(magic)?, Fit::Sure(_));
+            match if is_whole_behind { Some(magic) } else { view.search(0, &self.channels())? } {
+                Some(found) => offset = found,
+                None => return Ok(()),
             }
-            let place = match file.record(offset) {
-                Ok(place) => place,
-                Err(error @ Error::Damaged { .. }) => {
-                    index.damage.push(error);
-                    break;
+        }
+        while !self.is_closed && offset < self.file.len() {
+            offset = self.step(view, offset)?;
+        }
+        if !self.is_closed {
+            let reason = "the file ends without its closing records: its recorder was stopped hard";
+            self.note(self.damaged(self.file.len(), reason));
+        }
+        Ok(())
+    }
+
+    /// Takes the record at `offset`, or what is broken there, and says where to go on.
+    fn step(&mut self, view: &mut View<'_>, offset: u64) -> Result<u64, Error> {
+        let fit = view.fit(offset)?;
+        if let Fit::Sure(end) | Fit::Maybe(end) = fit
+            && (fit == Fit::Sure(end) || view.goes_on(end)?)
+        {
+            return self.take(view, offset, end);
+        }
+        if let Some((head, end)) = view.chunk(offset)?
+            && end < self.file.len()
+            && view.goes_on(end)?
+        {
+            self.note(self.damaged(offset, "a chunk whose record has a wrong kind or length"));
+            return self.take_chunk(offset, end, head);
+        }
+        let next = view.search(offset + 1, &self.channels())?;
+        let end_of_damage = next.unwrap_or(self.file.len());
+        if let Fit::Maybe(end) = fit
+            && end <= end_of_damage
+        {
+            // What follows is broken, not this.
+            return self.take(view, offset, end);
+        }
+        let lost = end_of_damage - offset;
+        let reason = match view.head(offset)? {
+            Some((kind, length)) => {
+                let left = self.file.len() - offset - HEAD;
+                format!(
+                    "a broken record (kind {kind:#04x}, {length} bytes, and {left} bytes are left in the file); {lost} bytes are left out"
+                )
+            }
+            None => format!("the file ends inside a record, after {lost} bytes of it"),
+        };
+        self.note(self.damaged(offset, reason));
+        Ok(end_of_damage)
+    }
+
+    /// Takes the record between two places.
+    fn take(&mut self, view: &mut View<'_>, offset: u64, end: u64) -> Result<u64, Error> {
+        let Some((opcode, _)) = view.head(offset)? else { return Ok(end) };
+        match opcode {
+            op::FOOTER => self.is_closed = true,
+            op::CHUNK => {
+                if let Some((head, _)) = view.chunk(offset)? {
+                    return self.take_chunk(offset, end, head);
                 }
-                Err(error) => return Err(error),
+            }
+            op::MESSAGE => {
+                let record = view.bytes(offset, HEAD + MESSAGE_HEAD as u64)?;
+                if let Some((head, _)) = record.get(HEAD as usize..).and_then(MessageHead::split) {
+                    self.take_message(offset, end, head);
+                }
+            }
+            op::SCHEMA | op::CHANNEL if self.summary.is_none() && end - offset <= MAX_BLOCK_BYTES => {
+                let content = self.file.read(offset + HEAD..end)?;
+                match self.file.parse(opcode, &content, offset) {
+                    Ok(definition) => self.definitions.add(definition),
+                    Err(error) => self.note(error),
+                }
+            }
+            // Records of applications begin at 0x80; between them and those of the format there are none yet.
+            _ if !(op::HEADER..=op::DATA_END).contains(&opcode) && opcode < 0x80 => {
+                let reason =
+                    format!("a record of unknown kind {opcode:#04x}; {} bytes are left out", end - offset);
+                self.note(self.damaged(offset, reason));
+            }
+            _ => {}
+        }
+        Ok(end)
+    }
+
+    fn take_chunk(&mut self, offset: u64, end: u64, head: ChunkHead) -> Result<u64, Error> {
+        let ChunkHead { start_ns, end_ns, chunk } = head;
+        self.chunks += 1;
+        if !compression::KNOWN.contains(&chunk.compression.as_str()) {
+            self.note(self.damaged(offset, compression::unknown(&chunk.compression)));
+            return Ok(end);
+        }
+        let is_plain = chunk.compression.is_empty();
+        if is_plain && chunk.records.end - chunk.records.start > MAX_BLOCK_BYTES {
+            // Too large for one block: its records are taken one by one as if there were no chunk.
+            return Ok(chunk.records.start);
+        }
+        if !is_plain {
+            let Some(left) = self.allowance.checked_sub(chunk.size.min(MAX_BLOCK_BYTES)) else {
+                let reason =
+                    "a chunk behind others that decompress to more than is accepted of a file of this size";
+                self.note(self.damaged(offset, reason));
+                return Ok(end);
             };
-            let end = place.content.end;
-            match place.opcode {
-                op::DATA_END | op::FOOTER => break,
-                op::CHUNK => index.add_chunk(file, &place, has_summary)?,
-                op::MESSAGE => index.add_loose_message(file, offset, &place, has_summary)?,
-                op::SCHEMA | op::CHANNEL if !has_summary => {
-                    let content = file.read(place.content)?;
-                    let parsed = file.parse(place.opcode, &content, offset);
-                    index.note(parsed.map(|record| index_definition(record)));
-                }
-                _ => {}
-            }
-            offset = end;
+            self.allowance = left;
         }
-        Ok(index)
+        let indexed = self.summary.and_then(|summary| summary.chunks.get(&offset));
+        let is_as_indexed = indexed.is_some_and(|index| {
+            index.message_start_time == start_ns && index.message_end_time == end_ns && !is_empty(&chunk)
+        });
+        match indexed {
+            Some(index) if is_as_indexed => {
+                let channels: Box<[u32]> =
+                    index.message_index_offsets.keys().map(|id| u32::from(*id)).collect();
+                // Without message indexes the chunk may still have messages.
+                let channels = (!channels.is_empty()).then_some(channels);
+                self.blocks.push(Block { start_ns, end_ns, channels, place: Place::Chunk(chunk) });
+            }
+            _ => self.read_chunk(chunk),
+        }
+        Ok(end)
     }
 
-    /// Takes topics and counts from the summary at the end; `false` when there is none that can be trusted.
-    fn read_summary(&mut self, file: &McapFile) -> Result<bool, Error> {
-        let Some(footer_offset) = file.len().checked_sub(FOOTER_AND_MAGIC) else { return Ok(false) };
-        let place = file.record(footer_offset)?;
-        if place.opcode != op::FOOTER {
-            return Ok(false);
-        }
-        let Record::Footer(footer) = file.parse(op::FOOTER, &file.read(place.content)?, footer_offset)?
-        else {
-            return Ok(false);
+    /// Counts what is in a chunk of which no summary tells.
+    fn read_chunk(&mut self, chunk: Chunk) {
+        let bytes = match chunk::bytes_of(self.file, &chunk) {
+            Ok(bytes) => bytes,
+            Err(error) => return self.note(error),
         };
-        // The CRC covers the summary and the footer up to the CRC itself.
-        let covered = file.read(footer.summary_start..footer_offset + HEAD + 16)?;
-        let damaged = footer.summary_crc != 0 && footer.summary_crc != crc32fast::hash(&covered);
-        if footer.summary_start == 0 || damaged {
-            return Ok(false);
-        }
-        let mut statistics = None;
-        for record in records_in(&covered[..covered.len() - (HEAD as usize + 16)]) {
-            let Ok(record) = record else { return Ok(false) };
-            match record.opcode {
-                op::SCHEMA | op::CHANNEL | op::STATISTICS => {
-                    match file.parse(
-                        record.opcode,
-                        record.content,
-                        footer.summary_start + record.offset as u64,
-                    )? {
-                        Record::Statistics(found) => statistics = Some(found),
-                        definition => self.add(index_definition(definition)),
-                    }
-                }
-                _ => {}
-            }
-        }
-        let Some(statistics) = statistics else { return Ok(false) };
-        let complete = statistics.channel_count as usize == self.channels.len()
-            && usize::from(statistics.schema_count) == self.schemas.len();
-        self.counts = statistics.channel_message_counts;
-        Ok(complete)
-    }
-
-    fn add_chunk(&mut self, file: &McapFile, place: &Place, has_summary: bool) -> Result<(), Error> {
-        let offset = place.content.start;
-        let Some(block) = chunk_block(file, place)? else {
-            self.damage.push(Error::damaged(file.path(), offset, "a chunk with a broken head"));
-            return Ok(());
-        };
-        if has_summary {
-            self.blocks.push(block);
-            return Ok(());
-        }
-        let bytes = file.read(block.records.clone())?;
-        if let Some(damage) = block.checksum_error(file, &bytes) {
-            self.damage.push(damage);
-            return Ok(());
-        }
-        for record in records_in(&bytes) {
-            let Ok(record) = record else { break };
+        let mut bounds: Option<(u64, u64)> = None;
+        let mut channels = BTreeSet::new();
+        // What is broken in it is told when it is read.
+        for record in records_in(&bytes).map_while(Result::ok) {
             match record.opcode {
                 op::SCHEMA | op::CHANNEL => {
-                    let parsed =
-                        file.parse(record.opcode, record.content, block.records.start + record.offset as u64);
-                    self.note(parsed.map(index_definition));
+                    match self.file.parse(record.opcode, record.content, chunk.records.start) {
+                        Ok(definition) => self.definitions.add(definition),
+                        Err(error) => self.note(error),
+                    }
                 }
                 op::MESSAGE => {
                     if let Some((head, _)) = MessageHead::split(record.content) {
+                        let time = head.log_time_ns;
+                        let (start, end) = bounds.unwrap_or((time, time));
+                        bounds = Some((start.min(time), end.max(time)));
+                        channels.insert(u32::from(head.channel));
                         *self.counts.entry(head.channel).or_default() += 1;
                     }
                 }
                 _ => {}
             }
         }
-        self.blocks.push(block);
-        Ok(())
-    }
-
-    fn add_loose_message(
-        &mut self,
-        file: &McapFile,
-        offset: u64,
-        place: &Place,
-        has_summary: bool,
-    ) -> Result<(), Error> {
-        let content = &place.content;
-        let head = file.read(content.start..content.end.min(content.start + MESSAGE_HEAD as u64))?;
-        let Some((head, _)) = MessageHead::split(&head) else {
-            self.damage.push(Error::damaged(file.path(), offset, "a message shorter than its head"));
-            return Ok(());
+        // A chunk of definitions alone has nothing to load, unless it is broken.
+        let (start_ns, end_ns) = match bounds {
+            Some(bounds) => bounds,
+            None if records_in(&bytes).all(|record| record.is_ok()) => return,
+            None => (0, 0),
         };
-        if !has_summary {
-            *self.counts.entry(head.channel).or_default() += 1;
+        let channels = bounds.map(|_| channels.into_iter().collect());
+        self.blocks.push(Block { start_ns, end_ns, channels, place: Place::Chunk(chunk) });
+    }
+
+    fn take_message(&mut self, offset: u64, end: u64, head: MessageHead) {
+        if end - offset > MAX_BLOCK_BYTES {
+            let reason = format!("a message of {} bytes; accepted: {MAX_BLOCK_BYTES}", end - offset);
+            return self.note(self.damaged(offset, reason));
         }
+        self.loose_messages += 1;
+        *self.counts.entry(head.channel).or_default() += 1;
         let time = head.log_time_ns;
-        match self.blocks.last_mut() {
-            Some(last)
-                if last.is_row
-                    && last.records.end == offset
-                    && offset - last.records.start < LOOSE_BLOCK_BYTES =>
+        let channel = u32::from(head.channel);
+        if let Some(Block { start_ns, end_ns, channels, place: Place::Row { records } }) =
+            self.blocks.last_mut()
+            && records.end == offset
+            && end - records.start <= ROW_BYTES
+        {
+            records.end = end;
+            *start_ns = time.min(*start_ns);
+            *end_ns = time.max(*end_ns);
+            if let Some(known) = channels
+                && let Err(place) = known.binary_search(&channel)
             {
-                last.records.end = content.end;
-                last.start_ns = last.start_ns.min(time);
-                last.end_ns = last.end_ns.max(time);
+                let mut more = known.to_vec();
+                more.insert(place, channel);
+                *channels = Some(more.into());
             }
-            _ => self.blocks.push(Block {
-                start_ns: time,
-                end_ns: time,
-                records: offset..content.end,
-                crc: 0,
-                is_row: true,
-            }),
+            return;
         }
-        Ok(())
+        let place = Place::Row { records: offset..end };
+        self.blocks.push(Block { start_ns: time, end_ns: time, channels: Some([channel].into()), place });
     }
 
-    fn note(&mut self, definition: Result<Definition, Error>) {
-        match definition {
-            Ok(definition) => self.add(definition),
-            Err(error) => self.damage.push(error),
+    /// The channels known so far.
+    fn channels(&self) -> BTreeSet<u16> {
+        let indexed = self.summary.map(|summary| &summary.definitions.channels);
+        let seen = self.counts.keys();
+        self.definitions
+            .channels
+            .keys()
+            .chain(indexed.into_iter().flat_map(BTreeMap::keys))
+            .chain(seen)
+            .copied()
+            .collect()
+    }
+
+    /// Whether the summary can stand for the file: everything in it is there, and nothing is broken.
+    fn agrees_with(&self, summary: &Summary) -> bool {
+        let all_messages_are_loose = summary.statistics.chunk_count == 0;
+        self.damage.is_empty()
+            && self.chunks == u64::from(summary.statistics.chunk_count)
+            && (!all_messages_are_loose || self.loose_messages == summary.statistics.message_count)
+    }
+
+    /// Notes when other messages can be read than the summary has counted and nothing else says why.
+    fn compare_with(&mut self, summary: &Summary) {
+        let found: u64 = self.counts.values().sum();
+        let announced = summary.statistics.message_count;
+        if self.damage.is_empty() && found != announced {
+            let reason = format!("the summary counts {announced} messages, and there are {found}");
+            self.note(self.damaged(self.file.len(), reason));
         }
     }
 
-    fn add(&mut self, definition: Definition) {
-        match definition {
-            Definition::Schema(id, schema) => {
-                self.schemas.insert(id, schema);
-            }
-            Definition::Channel(channel) => {
-                self.channels.insert(channel.id, channel);
-            }
-            Definition::Other => {}
+    fn damaged(&self, offset: u64, reason: impl Into<String>) -> Error {
+        Error::damaged(self.file.path(), offset, reason)
+    }
+
+    fn note(&mut self, error: Error) {
+        if self.damage.len() < TOLD {
+            self.damage.push(error);
+        } else {
+            self.untold += 1;
         }
+    }
+
+    fn finish(mut self) -> FileIndex {
+        if self.untold > 0 {
+            let more =
+                self.damaged(self.file.len(), format!("{} more broken places in the file", self.untold));
+            self.damage.push(more);
+        }
+        let Definitions { schemas, channels } = &self.definitions;
+        let topics = channels.iter().map(|(id, channel)| {
+            let schema = schemas.get(&channel.schema_id);
+            let text_of = |key: &str| channel.metadata.get(key).cloned().unwrap_or_default();
+            let topic = Topic {
+                name: channel.topic.clone(),
+                type_name: schema.map(|schema| schema.name.clone()).unwrap_or_default(),
+                serialization_format: channel.message_encoding.clone(),
+                // A QoS nobody can read is one that is not known.
+                offered_qos: qos::from_yaml(&text_of("offered_qos_profiles")).unwrap_or_default(),
+                definition: MessageDefinition {
+                    encoding: schema.map(|schema| schema.encoding.clone()).unwrap_or_default(),
+                    text: schema.map(|schema| schema.text.clone()).unwrap_or_default(),
+                    type_hash: text_of("topic_type_hash"),
+                },
+            };
+            let message_count = self.counts.get(id).copied().unwrap_or(0);
+            (u32::from(*id), RecordedTopic { topic, message_count })
+        });
+        FileIndex { topics: topics.collect(), blocks: self.blocks, damage: self.damage }
     }
 }
 
-enum Definition {
-    Schema(u16, Schema),
-    Channel(records::Channel),
-    Other,
-}
-
-fn index_definition(record: Record<'_>) -> Definition {
-    match record {
-        Record::Schema { header, data } => {
-            let text = String::from_utf8_lossy(&data).into_owned();
-            Definition::Schema(header.id, Schema { name: header.name, encoding: header.encoding, text })
-        }
-        Record::Channel(channel) => Definition::Channel(channel),
-        _ => Definition::Other,
-    }
-}
-
-/// Reads the head of a chunk; `None` when it is broken.
-fn chunk_block(file: &McapFile, place: &Place) -> Result<Option<Block>, Error> {
-    let content = &place.content;
-    let head_end = content.start + CHUNK_HEAD as u64;
-    if head_end > content.end {
-        return Ok(None);
-    }
-    let head = file.read(content.start..head_end)?;
-    let number =
-        |at: usize| head.get(at..).and_then(|rest| rest.first_chunk()).copied().map(u64::from_le_bytes);
-    let short =
-        |at: usize| head.get(at..).and_then(|rest| rest.first_chunk()).copied().map(u32::from_le_bytes);
-    let (Some(start_ns), Some(end_ns), Some(crc), Some(name_length)) =
-        (number(0), number(8), short(24), short(28))
-    else {
-        return Ok(None);
-    };
-    let begin = head_end + u64::from(name_length) + 8;
-    if begin > content.end {
-        return Ok(None);
-    }
-    let name_and_size = file.read(head_end..begin)?;
-    let Some((name, size)) = name_and_size.split_last_chunk() else { return Ok(None) };
-    if !name.is_empty() {
-        let what = format!("compression {:?}", String::from_utf8_lossy(name));
-        return Err(Error::Unsupported { path: file.path().to_owned(), what });
-    }
-    let end = begin.checked_add(u64::from_le_bytes(*size)).filter(|end| *end <= content.end);
-    Ok(end.map(|end| Block { start_ns, end_ns, records: begin..end, crc, is_row: false }))
-}
-
-impl Block {
-    /// What to say when `bytes`, read from this block, are not what was written.
-    pub(crate) fn checksum_error(&self, file: &McapFile, bytes: &[u8]) -> Option<Error> {
-        let found = crc32fast::hash(bytes);
-        (self.crc != 0 && self.crc != found).then(|| {
-            let size = bytes.len();
-            let reason =
-                format!("a chunk of {size} bytes with checksum {found:08x} instead of {:08x}", self.crc);
-            Error::damaged(file.path(), self.records.start, reason)
-        })
-    }
+fn is_empty(chunk: &Chunk) -> bool {
+    chunk.records.is_empty()
 }

@@ -1,17 +1,21 @@
 //! `metadata.yaml` of a rosbag2 directory: versions 1 to 9 are read, 9 is written.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
+use std::io::Read;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::qos::{self, Qos};
+use crate::reader::Recording;
 
 /// The file's name in the directory of a recording.
 pub(crate) const FILE_NAME: &str = "metadata.yaml";
 /// The version this crate writes: ROS 2 Jazzy.
 const VERSION: u32 = 9;
+/// A file with thousands of topics has some megabytes.
+const LARGEST_BYTES: u64 = 16 << 20;
 /// What rosbag2 writes as the start of a recording without messages.
 const NO_START_NS: u64 = i64::MAX as u64;
 
@@ -37,7 +41,7 @@ pub(crate) struct Metadata {
     #[serde(default)]
     pub(crate) files: Vec<FileInformation>,
     #[serde(default)]
-    pub(crate) custom_data: Option<BTreeMap<String, String>>,
+    pub(crate) custom_data: Option<serde_yaml::Value>,
     #[serde(default)]
     pub(crate) ros_distro: String,
 }
@@ -129,19 +133,77 @@ impl Metadata {
     /// Reads `metadata.yaml` of `directory`; `None` when there is none.
     pub(crate) fn load(directory: &Path) -> Result<Option<Self>, Error> {
         let path = directory.join(FILE_NAME);
-        let bytes = match std::fs::read(&path) {
-            Ok(bytes) => bytes,
+        let file = match std::fs::File::open(&path) {
+            Ok(file) => file,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(Error::io(&path, "read")(error)),
+            Err(error) => return Err(Error::io(&path, "open")(error)),
         };
-        let root: Root = serde_yaml::from_slice(&bytes).map_err(invalid(&path))?;
+        let mut bytes = Vec::new();
+        file.take(LARGEST_BYTES + 1).read_to_end(&mut bytes).map_err(Error::io(&path, "read"))?;
+        if bytes.len() as u64 > LARGEST_BYTES {
+            let reason = format!("more than {LARGEST_BYTES} bytes, which no metadata has");
+            return Err(Error::Metadata { path, reason });
+        }
+        Self::parse(&bytes, &path).map(Some)
+    }
+
+    /// The content of a `metadata.yaml` that lies at `path`.
+    pub(crate) fn parse(bytes: &[u8], path: &Path) -> Result<Self, Error> {
+        let root: Root = serde_yaml::from_slice(bytes).map_err(invalid(path))?;
         let metadata = root.rosbag2_bagfile_information;
         if (1..=VERSION).contains(&metadata.version) {
-            Ok(Some(metadata))
+            Ok(metadata)
         } else {
             let reason = format!("version is {}, accepted: 1 to {VERSION}", metadata.version);
-            Err(Error::Metadata { path, reason })
+            Err(Error::Metadata { path: path.to_owned(), reason })
         }
+    }
+
+    /// What this says other than the files of `recording`, a sentence each.
+    pub(crate) fn disagreements(&self, recording: &Recording) -> Vec<String> {
+        let mut sentences = Vec::new();
+        let mut known = BTreeSet::new();
+        for TopicWithCount { topic_metadata, message_count } in &self.topics_with_message_count {
+            let TopicMetadata { name, type_name, .. } = topic_metadata;
+            known.insert((name, type_name));
+            let found = recording
+                .topics()
+                .iter()
+                .find(|found| found.topic.name == *name && found.topic.type_name == *type_name);
+            match found {
+                Some(found) if found.message_count == *message_count => {}
+                Some(found) => sentences.push(format!(
+                    "metadata.yaml counts {message_count} messages of {name}, and there are {}",
+                    found.message_count
+                )),
+                None => sentences.push(format!(
+                    "metadata.yaml has the topic {name} of type {type_name} with {message_count} messages, which is in no file"
+                )),
+            }
+        }
+        for found in recording.topics() {
+            if !known.contains(&(&found.topic.name, &found.topic.type_name)) {
+                let (name, type_name) = (&found.topic.name, &found.topic.type_name);
+                sentences.push(format!("metadata.yaml does not have the topic {name} of type {type_name}"));
+            }
+        }
+        let found: u64 = recording.topics().iter().map(|topic| topic.message_count).sum();
+        if found != self.message_count {
+            let announced = self.message_count;
+            sentences
+                .push(format!("metadata.yaml counts {announced} messages altogether, and there are {found}"));
+        }
+        let span = recording.log_time_bounds_ns().map(|(start, end)| (start, end - start));
+        let announced = (self.starting_time.nanoseconds_since_epoch, self.duration.nanoseconds);
+        if let Some(found) = span
+            && found != announced
+        {
+            sentences.push(format!(
+                "metadata.yaml has a recording of {} ns from {}, and it is one of {} ns from {}",
+                announced.1, announced.0, found.1, found.0
+            ));
+        }
+        sentences
     }
 }
 

@@ -1,27 +1,27 @@
-//! Reads recordings: rosbag2 directories of MCAP files, whole or left behind by a killed recorder, and bare MCAP files.
+//! Reads recordings: rosbag2 directories and bare files, whole, damaged, or left behind by a killed recorder.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::MessageDefinition;
+use crate::block::{Entry, FileIndex, Loaded};
+use crate::directory::Directory;
 use crate::error::Error;
-use crate::file::McapFile;
-use crate::index::FileIndex;
 use crate::metadata::Metadata;
-use crate::order::{Located, Merge};
-use crate::qos;
-use crate::topic::{RecordedTopic, Topic};
+use crate::order::{Found, Located, Merge, Selection};
+use crate::storage::RecordedFile;
+use crate::topic::RecordedTopic;
 
 /// An opened recording. Opening reads heads and summaries; messages are read when they are asked for.
 #[derive(Debug)]
 pub struct Recording {
     path: PathBuf,
     topics: Vec<RecordedTopic>,
-    files: Vec<McapFile>,
+    files: Vec<RecordedFile>,
     /// For each file, which topic a channel belongs to.
-    topic_of_channel: Vec<BTreeMap<u16, usize>>,
+    topic_of_channel: Vec<BTreeMap<u32, usize>>,
     blocks: Vec<Located>,
     damage: Vec<Error>,
+    disagreements: Vec<String>,
 }
 
 /// A recorded message.
@@ -39,18 +39,33 @@ pub struct Message {
     pub data: Vec<u8>,
 }
 
+/// A recorded message, still where it was read into memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MessageRef<'a> {
+    /// Index into [`Recording::topics`].
+    pub topic: usize,
+    /// When the recorder received it, ns since 1970.
+    pub log_time_ns: u64,
+    /// When it was published, as far as the recorder knew, ns since 1970.
+    pub publish_time_ns: u64,
+    /// Counts the messages of a topic, where the recorder did; 0 otherwise.
+    pub sequence: u32,
+    /// The message as it was on the wire: CDR with its header.
+    pub data: &'a [u8],
+}
+
 impl Recording {
-    /// Opens a rosbag2 directory or a bare `.mcap` file.
+    /// Opens a rosbag2 directory, or one file of one: `.mcap` or `.db3`, or these compressed as a whole (`.mcap.zstd`), which
+    /// are decompressed to the directory for temporary files as long as the recording is open.
     ///
-    /// Where `metadata.yaml` and the files disagree, the files are right; without it all `.mcap` files of the directory are
-    /// taken.
+    /// Where `metadata.yaml` and the files disagree, the files are right; see [`Recording::metadata_disagreements`].
     ///
     /// # Errors
-    /// When nothing can be read from it: no recording, SQLite storage, a compressed file. A file that is cut or partly
-    /// broken opens; [`Recording::damage`] says what is missing.
+    /// When nothing can be read from it. A recording that is cut or partly broken opens; [`Recording::damage`] says what is
+    /// missing.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let (file_paths, metadata) = files_of(path)?;
+        let directory = Directory::of(path)?;
         let mut recording = Self {
             path: path.to_owned(),
             topics: Vec::new(),
@@ -58,14 +73,20 @@ impl Recording {
             topic_of_channel: Vec::new(),
             blocks: Vec::new(),
             damage: Vec::new(),
+            disagreements: directory.disagreements,
         };
-        for file_path in file_paths {
-            let file = McapFile::open(&file_path)?;
-            let index = FileIndex::of(&file)?;
-            recording.add(file, index);
+        for file_path in directory.files {
+            match RecordedFile::open(&file_path) {
+                Ok((file, index)) => recording.add(file, index),
+                Err(error) => recording.damage.push(error),
+            }
         }
-        if let Some(metadata) = metadata {
+        if recording.files.is_empty() && !recording.damage.is_empty() {
+            return Err(recording.damage.swap_remove(0));
+        }
+        if let Some(metadata) = directory.metadata {
             recording.complete_from(&metadata);
+            recording.disagreements.extend(metadata.disagreements(&recording));
         }
         Ok(recording)
     }
@@ -85,6 +106,11 @@ impl Recording {
         &self.damage
     }
 
+    /// What `metadata.yaml` says other than the files, a sentence each.
+    pub fn metadata_disagreements(&self) -> &[String] {
+        &self.disagreements
+    }
+
     /// First and last log time in ns since 1970; `None` without messages.
     pub fn log_time_bounds_ns(&self) -> Option<(u64, u64)> {
         let start = self.blocks.iter().map(|located| located.block.start_ns).min()?;
@@ -96,28 +122,50 @@ impl Recording {
     ///
     /// An item is an error where stored messages cannot be read; the iterator then goes on behind them.
     pub fn messages(&self) -> Messages<'_> {
-        Messages { recording: self, merge: Merge::new(&self.files, &self.blocks) }
+        let all: Vec<usize> = (0..self.topics.len()).collect();
+        self.messages_of(&all)
     }
 
-    fn add(&mut self, file: McapFile, index: FileIndex) {
+    /// As [`Recording::messages`], of these topics (numbers in [`Recording::topics`]) alone. What has no message of them is
+    /// not read where the file says so.
+    pub fn messages_of(&self, topics: &[usize]) -> Messages<'_> {
+        Messages { merge: self.merge(topics, 0, u64::MAX) }
+    }
+
+    /// All messages in the order in which they were stored, whatever their times: each part of the recording is read once
+    /// and one is in memory at a time, however the times lie.
+    pub fn stored_messages(&self) -> StoredMessages<'_> {
+        StoredMessages {
+            recording: self,
+            blocks: 0,
+            loaded: Loaded::default(),
+            cursor: 0,
+            file: 0,
+            damage: Vec::new(),
+        }
+    }
+
+    /// The messages of some topics in a span of log times.
+    pub(crate) fn merge(&self, topics: &[usize], from_ns: u64, to_ns: u64) -> Merge<'_> {
+        let mut wanted = vec![false; self.topics.len()];
+        for topic in topics {
+            if let Some(wanted) = wanted.get_mut(*topic) {
+                *wanted = true;
+            }
+        }
+        let selection = Selection { topics: wanted, from_ns, to_ns };
+        Merge::new(&self.files, &self.blocks, &self.topic_of_channel, selection)
+    }
+
+    /// Whether all of a block was logged before a time.
+    pub(crate) fn ends_before(&self, block: usize, time_ns: u64) -> bool {
+        self.blocks.get(block).is_some_and(|located| located.block.end_ns < time_ns)
+    }
+
+    fn add(&mut self, file: RecordedFile, index: FileIndex) {
         let mut topic_of_channel = BTreeMap::new();
-        for (id, channel) in &index.channels {
-            let schema = index.schemas.get(&channel.schema_id);
-            let text_of = |key: &str| channel.metadata.get(key).cloned().unwrap_or_default();
-            let topic = Topic {
-                name: channel.topic.clone(),
-                type_name: schema.map(|schema| schema.name.clone()).unwrap_or_default(),
-                serialization_format: channel.message_encoding.clone(),
-                // A QoS nobody can read is one that is not known.
-                offered_qos: qos::from_yaml(&text_of("offered_qos_profiles")).unwrap_or_default(),
-                definition: MessageDefinition {
-                    encoding: schema.map(|schema| schema.encoding.clone()).unwrap_or_default(),
-                    text: schema.map(|schema| schema.text.clone()).unwrap_or_default(),
-                    type_hash: text_of("topic_type_hash"),
-                },
-            };
-            let message_count = index.counts.get(id).copied().unwrap_or(0);
-            topic_of_channel.insert(*id, self.add_topic(topic, message_count));
+        for (channel, topic) in index.topics {
+            topic_of_channel.insert(channel, self.add_topic(topic));
         }
         let number = self.files.len();
         self.blocks.extend(index.blocks.into_iter().map(|block| Located { file: number, block }));
@@ -127,19 +175,19 @@ impl Recording {
     }
 
     /// The place of a topic: channels of the same name and type, in any of the files, are one topic.
-    fn add_topic(&mut self, topic: Topic, message_count: u64) -> usize {
+    fn add_topic(&mut self, added: RecordedTopic) -> usize {
         let same = |known: &RecordedTopic| {
-            known.topic.name == topic.name && known.topic.type_name == topic.type_name
+            known.topic.name == added.topic.name && known.topic.type_name == added.topic.type_name
         };
         match self.topics.iter().position(same) {
             Some(place) => {
                 if let Some(known) = self.topics.get_mut(place) {
-                    known.message_count += message_count;
+                    known.message_count = known.message_count.saturating_add(added.message_count);
                 }
                 place
             }
             None => {
-                self.topics.push(RecordedTopic { topic, message_count });
+                self.topics.push(added);
                 self.topics.len() - 1
             }
         }
@@ -161,77 +209,112 @@ impl Recording {
     }
 }
 
+impl<'a> MessageRef<'a> {
+    pub(crate) fn of(found: &Found<'a>) -> Self {
+        Self::new(found.entry.channel as usize, found.entry, found.data)
+    }
+
+    fn new(topic: usize, entry: &Entry, data: &'a [u8]) -> Self {
+        Self {
+            topic,
+            log_time_ns: entry.log_time_ns,
+            publish_time_ns: entry.publish_time_ns,
+            sequence: entry.sequence,
+            data,
+        }
+    }
+
+    /// With its own copy of the data.
+    pub fn to_message(self) -> Message {
+        Message {
+            topic: self.topic,
+            log_time_ns: self.log_time_ns,
+            publish_time_ns: self.publish_time_ns,
+            sequence: self.sequence,
+            data: self.data.to_vec(),
+        }
+    }
+}
+
 /// The messages of a recording; see [`Recording::messages`].
 pub struct Messages<'a> {
-    recording: &'a Recording,
     merge: Merge<'a>,
+}
+
+impl Messages<'_> {
+    /// The next message, still in its place: for whoever only looks at it.
+    pub fn next_ref(&mut self) -> Option<Result<MessageRef<'_>, Error>> {
+        match self.merge.peek()? {
+            Ok(_) => self.merge.take().map(|found| Ok(MessageRef::of(&found))),
+            Err((_, error)) => Some(Err(error)),
+        }
+    }
 }
 
 impl Iterator for Messages<'_> {
     type Item = Result<Message, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let recording = self.recording;
-        let next = self.merge.next(|found| {
-            let topics = recording.topic_of_channel.get(found.file);
-            let topic = topics.and_then(|topics| topics.get(&found.head.channel)).copied();
-            topic.ok_or((found.file, found.head.channel)).map(|topic| Message {
-                topic,
-                log_time_ns: found.head.log_time_ns,
-                publish_time_ns: found.head.publish_time_ns,
-                sequence: found.head.sequence,
-                data: found.data.to_vec(),
-            })
-        })?;
-        Some(next.and_then(|message| {
-            message.map_err(|(file, channel)| {
-                let path = recording.files.get(file).map_or(recording.path(), McapFile::path);
-                Error::damaged(path, 0, format!("a message of channel {channel}, which is nowhere described"))
-            })
-        }))
+        Some(self.next_ref()?.map(MessageRef::to_message))
     }
 }
 
-/// The files of a recording in their order, and its `metadata.yaml` if it has one.
-fn files_of(path: &Path) -> Result<(Vec<PathBuf>, Option<Metadata>), Error> {
-    let unsupported = |what: String| Err(Error::Unsupported { path: path.to_owned(), what });
-    if !path.is_dir() {
-        return match path.extension() {
-            Some(extension) if extension == "db3" => unsupported("SQLite storage".to_owned()),
-            _ => Ok((vec![path.to_owned()], None)),
-        };
-    }
-    let Some(metadata) = Metadata::load(path)? else { return Ok((mcap_files_in(path)?, None)) };
-    if metadata.storage_identifier != "mcap" {
-        return unsupported(format!("storage {:?}", metadata.storage_identifier));
-    }
-    if !["", "none"].contains(&metadata.compression_mode.to_ascii_lowercase().as_str()) {
-        let Metadata { compression_mode, compression_format, .. } = &metadata;
-        return unsupported(format!("compression by {compression_mode} ({compression_format})"));
-    }
-    // Old versions wrote the directory in front of the name; and a recording has no business outside of its directory.
-    let names = metadata.relative_file_paths.iter().filter_map(|name| Path::new(name).file_name());
-    let files: Vec<_> = names.map(|name| path.join(name)).collect();
-    if files.is_empty() {
-        return Ok((mcap_files_in(path)?, Some(metadata)));
-    }
-    Ok((files, Some(metadata)))
+/// The messages of a recording as they lie there; see [`Recording::stored_messages`].
+pub struct StoredMessages<'a> {
+    recording: &'a Recording,
+    /// How many blocks were loaded.
+    blocks: usize,
+    loaded: Loaded,
+    cursor: usize,
+    file: usize,
+    damage: Vec<Error>,
 }
 
-/// The `.mcap` files of a directory in the order of their numbers.
-fn mcap_files_in(directory: &Path) -> Result<Vec<PathBuf>, Error> {
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(directory).map_err(Error::io(directory, "read"))? {
-        let file = entry.map_err(Error::io(directory, "read"))?.path();
-        if file.extension().is_some_and(|extension| extension == "mcap") {
-            files.push(file);
+impl StoredMessages<'_> {
+    /// The next message, still in its place: for whoever only looks at it.
+    pub fn next_ref(&mut self) -> Option<Result<MessageRef<'_>, Error>> {
+        loop {
+            if let Some(error) = self.damage.pop() {
+                return Some(Err(error));
+            }
+            let topics = self.recording.topic_of_channel.get(self.file);
+            let channel = self.loaded.entries.get(self.cursor).map(|entry| entry.channel);
+            match channel.map(|channel| topics.and_then(|topics| topics.get(&channel))) {
+                Some(Some(topic)) => {
+                    let entry = self.loaded.entries.get(self.cursor)?;
+                    self.cursor += 1;
+                    return Some(Ok(MessageRef::new(*topic, entry, self.loaded.data(entry))));
+                }
+                // Files leave out what they have no topic for.
+                Some(None) => self.cursor += 1,
+                None => self.load_next()?,
+            }
         }
     }
-    if files.is_empty() {
-        let reason = "the directory has neither metadata.yaml nor .mcap files".to_owned();
-        return Err(Error::NotARecording { path: directory.to_owned(), reason });
+
+    fn load_next(&mut self) -> Option<()> {
+        let located = self.recording.blocks.get(self.blocks)?;
+        self.blocks += 1;
+        self.cursor = 0;
+        self.file = located.file;
+        match self.recording.files.get(located.file)?.load(&located.block) {
+            Ok(loaded) => self.loaded = loaded,
+            Err(error) => {
+                self.loaded = Loaded::default();
+                self.damage.push(error);
+            }
+        }
+        self.loaded.entries.sort_by_key(|entry| entry.data.start);
+        self.damage.append(&mut self.loaded.damage);
+        self.damage.reverse();
+        Some(())
     }
-    // NAME_10 comes behind NAME_9: shorter names first.
-    files.sort_by_key(|file| (file.as_os_str().len(), file.clone()));
-    Ok(files)
+}
+
+impl Iterator for StoredMessages<'_> {
+    type Item = Result<Message, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        Some(self.next_ref()?.map(MessageRef::to_message))
+    }
 }

@@ -11,7 +11,7 @@ use mcap::write::NoSeek;
 use crate::error::Error;
 use crate::metadata::{Metadata, TopicMetadata, TopicWithCount};
 use crate::qos;
-use crate::reader::Message;
+use crate::reader::MessageRef;
 use crate::topic::Topic;
 
 /// A chunk goes to the file when it is this large (the encoder sees to that) ...
@@ -81,6 +81,8 @@ impl Writer {
             .profile("ros2")
             .library(concat!("rhombus_haptics ", env!("CARGO_PKG_VERSION")))
             .chunk_size(Some(CHUNK_BYTES))
+            // What mcap compresses with by default depends on how it was built.
+            .compression(None)
             // A chunk is built in memory and written in one go: a cut can only fall between chunks or into the last one.
             .disable_seeking(true);
         let mcap = options.create(NoSeek::new(BufWriter::new(file))).map_err(Error::write(&file_path))?;
@@ -146,8 +148,8 @@ impl Writer {
     ///
     /// # Errors
     /// When the file cannot be written; nothing more can then be recorded.
-    pub fn copy(&mut self, topic: TopicId, message: &Message) -> Result<(), Error> {
-        let Message { sequence, log_time_ns, publish_time_ns, ref data, .. } = *message;
+    pub fn copy(&mut self, topic: TopicId, message: &MessageRef<'_>) -> Result<(), Error> {
+        let MessageRef { sequence, log_time_ns, publish_time_ns, data, .. } = *message;
         self.put(topic, sequence, log_time_ns, publish_time_ns, data)
     }
 

@@ -1,0 +1,106 @@
+//! The files of a recording, from its `metadata.yaml` and from what lies in its directory.
+
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use crate::error::Error;
+use crate::metadata::Metadata;
+use crate::storage::{COMPRESSED, MCAP, SQLITE};
+
+/// What is to be opened.
+#[derive(Debug, Default)]
+pub(crate) struct Directory {
+    /// In the order of the recording, missing ones included.
+    pub(crate) files: Vec<PathBuf>,
+    pub(crate) metadata: Option<Metadata>,
+    /// What `metadata.yaml` says other than the directory.
+    pub(crate) disagreements: Vec<String>,
+}
+
+impl Directory {
+    /// A directory, or one file of a recording.
+    pub(crate) fn of(path: &Path) -> Result<Self, Error> {
+        if !path.is_dir() {
+            return Ok(Self { files: vec![path.to_owned()], ..Self::default() });
+        }
+        let mut directory = Self::default();
+        match Metadata::load(path) {
+            Ok(metadata) => directory.metadata = metadata,
+            Err(error) => directory.disagreements.push(format!("{error}; reading the files without it")),
+        }
+        let present = recorded_files_in(path)?;
+        let mut unlisted: BTreeSet<_> = present.iter().cloned().collect();
+        for listed in directory.metadata.iter().flat_map(|metadata| &metadata.relative_file_paths) {
+            // Old versions wrote the directory in front of the name; and a recording has no business outside of it.
+            let Some(name) = Path::new(listed).file_name() else { continue };
+            let file = path.join(name);
+            let other = other_form(&file);
+            let found = [&file, &other].into_iter().find(|candidate| unlisted.remove(*candidate));
+            if found.is_none() && !directory.files.contains(&file) {
+                directory.disagreements.push(format!("metadata.yaml names {listed}, which is not there"));
+            }
+            let file = found.unwrap_or(&file).clone();
+            if !directory.files.contains(&file) {
+                directory.files.push(file);
+            }
+        }
+        let is_listed = !directory.files.is_empty();
+        // A recorder that is killed has not named its last files yet.
+        for file in present.into_iter().filter(|file| unlisted.contains(file)) {
+            // Of a file that lies there compressed and not, one is enough; and a converted copy is no part.
+            let is_part = directory.files.iter().any(|listed| series(listed) == series(&file));
+            if directory.files.contains(&other_form(&file)) || (is_listed && !is_part) {
+                continue;
+            }
+            if is_listed {
+                let name = file.file_name().unwrap_or_default().display();
+                directory
+                    .disagreements
+                    .push(format!("metadata.yaml does not name {name}, which is read too"));
+            }
+            directory.files.push(file);
+        }
+        if directory.files.is_empty() {
+            let reason = "the directory has neither .mcap nor .db3 files".to_owned();
+            return Err(Error::NotARecording { path: path.to_owned(), reason });
+        }
+        Ok(directory)
+    }
+}
+
+/// A compressed file without its ending, or any other with it.
+fn other_form(file: &Path) -> PathBuf {
+    if file.extension().is_some_and(|extension| extension == COMPRESSED) {
+        return file.with_extension("");
+    }
+    let mut name = OsString::from(file);
+    name.push(".");
+    name.push(COMPRESSED);
+    name.into()
+}
+
+/// What the parts of a recording have in common: the name up to the number, and the storage.
+fn series(file: &Path) -> (String, Option<OsString>) {
+    let compressed = file.extension().is_some_and(|extension| extension == COMPRESSED);
+    let plain = if compressed { file.with_extension("") } else { file.to_owned() };
+    let name = plain.file_stem().unwrap_or_default().to_string_lossy();
+    let name = name.trim_end_matches(|letter: char| letter.is_ascii_digit()).to_owned();
+    (name, plain.extension().map(OsString::from))
+}
+
+/// The files of a directory that may be parts of a recording, in the order of their numbers.
+fn recorded_files_in(directory: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(directory).map_err(Error::io(directory, "read"))? {
+        let file = entry.map_err(Error::io(directory, "read"))?.path();
+        let compressed = file.extension().is_some_and(|extension| extension == COMPRESSED);
+        let plain = if compressed { file.with_extension("") } else { file.clone() };
+        if plain.extension().is_some_and(|extension| extension == MCAP || extension == SQLITE) {
+            files.push(file);
+        }
+    }
+    // NAME_10 comes behind NAME_9: shorter names first.
+    files.sort_by_key(|file| (file.as_os_str().len(), file.clone()));
+    Ok(files)
+}

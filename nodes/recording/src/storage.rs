@@ -1,0 +1,96 @@
+//! A file of a recording, whatever its storage and whether compressed as a whole or not.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::block::{Block, FileIndex, Loaded};
+use crate::chunk;
+use crate::compression;
+use crate::error::Error;
+use crate::file::McapFile;
+use crate::index;
+use crate::sqlite::SqliteFile;
+
+/// Ending of files that rosbag2 compressed as a whole.
+pub(crate) const COMPRESSED: &str = "zstd";
+/// Endings of the storages.
+pub(crate) const MCAP: &str = "mcap";
+pub(crate) const SQLITE: &str = "db3";
+
+/// First bytes of a database, whatever its name.
+const SQLITE_MAGIC: &[u8] = b"SQLite format 3\0";
+
+/// An open file of a recording.
+pub(crate) struct RecordedFile {
+    path: PathBuf,
+    storage: Storage,
+    /// The decompressed content, removed with this value.
+    _decompressed: Option<NamedTempFile>,
+}
+
+enum Storage {
+    Mcap {
+        file: McapFile,
+        /// Numbers of the channels that have a topic, ascending.
+        channels: Vec<u32>,
+    },
+    Sqlite(Box<SqliteFile>),
+}
+
+impl RecordedFile {
+    /// Opens a file and finds what is in it.
+    pub(crate) fn open(path: &Path) -> Result<(Self, FileIndex), Error> {
+        let stored = std::fs::metadata(path).map_err(Error::io(path, "open"))?.len();
+        let (decompressed, damage) = match path.extension() {
+            Some(extension) if extension == COMPRESSED => {
+                let (file, damage) = compression::whole_file(path)?;
+                (Some(file), damage)
+            }
+            _ => (None, None),
+        };
+        let readable = decompressed.as_ref().map_or(path, NamedTempFile::path);
+        let name = if decompressed.is_some() { path.with_extension("") } else { path.to_owned() };
+        let is_database = name.extension().is_some_and(|extension| extension == SQLITE)
+            || begins_with(readable, SQLITE_MAGIC).map_err(Error::io(path, "open"))?;
+        let (storage, mut index) = if is_database {
+            let (file, index) = SqliteFile::open(readable, path)?;
+            (Storage::Sqlite(Box::new(file)), index)
+        } else {
+            let file = McapFile::open(readable, path)?;
+            let index = index::of(&file, compression::allowance(stored))?;
+            let channels = index.topics.keys().copied().collect();
+            (Storage::Mcap { file, channels }, index)
+        };
+        index.damage.extend(damage);
+        Ok((Self { path: path.to_owned(), storage, _decompressed: decompressed }, index))
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Loads a block of this file.
+    pub(crate) fn load(&self, block: &Block) -> Result<Loaded, Error> {
+        match &self.storage {
+            Storage::Mcap { file, channels } => {
+                chunk::load(file, block, |channel| channels.binary_search(&channel).is_ok())
+            }
+            Storage::Sqlite(file) => Ok(file.load(block)),
+        }
+    }
+}
+
+impl std::fmt::Debug for RecordedFile {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("RecordedFile").field("path", &self.path).finish_non_exhaustive()
+    }
+}
+
+fn begins_with(path: &Path, magic: &[u8]) -> std::io::Result<bool> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(magic.len() as u64).read_to_end(&mut bytes)?;
+    Ok(bytes == magic)
+}
