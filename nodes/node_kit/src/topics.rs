@@ -22,6 +22,7 @@ use r2r::shape_msgs::msg::Mesh;
 use r2r::std_msgs::msg::{Bool, Empty, UInt64};
 use r2r::tf2_msgs::msg::TFMessage;
 use r2r::visualization_msgs::msg::MarkerArray;
+use scene::topic;
 
 /// A topic: name, message type and quality of service for both ends.
 pub struct Topic<M> {
@@ -63,7 +64,7 @@ const fn latched(depth: usize) -> QosProfile {
 }
 
 /// Pose of the device's handle: device to deformation.
-pub const MEASURED_CP: Topic<PoseStamped> = Topic::new("measured_cp", reliable(1000));
+pub const MEASURED_CP: Topic<PoseStamped> = Topic::new(topic::MEASURED_CP, reliable(1000));
 /// Velocity of the device's handle: device.
 pub const MEASURED_CV: Topic<TwistStamped> = Topic::new("measured_cv", reliable(1000));
 /// Positions of the device's joints, rad or m: device, where joints are reported.
@@ -75,13 +76,13 @@ pub const SPATIAL_MEASURED_CF: Topic<WrenchStamped> = Topic::new("spatial/measur
 /// The same wrench in the axes of the handle, or in base axes after `body/set_cf_orientation_absolute`: device.
 pub const BODY_MEASURED_CF: Topic<WrenchStamped> = Topic::new("body/measured_cf", reliable(1000));
 /// Opening of the gripper in position\[0\], rad: device to deformation.
-pub const GRIPPER_MEASURED_JS: Topic<JointState> = Topic::new("gripper/measured_js", reliable(1000));
+pub const GRIPPER_MEASURED_JS: Topic<JointState> = Topic::new(topic::GRIPPER_MEASURED_JS, reliable(1000));
 /// Hold the surface while true: anyone to deformation.
-pub const GRASP: Topic<Bool> = Topic::new("grasp", reliable(10));
+pub const GRASP: Topic<Bool> = Topic::new(topic::GRASP, reliable(10));
 /// Clutch in buttons\[0\] (0 released, 1 pressed): device to deformation.
-pub const CLUTCH: Topic<Joy> = Topic::new("clutch", latched(10));
+pub const CLUTCH: Topic<Joy> = Topic::new(topic::CLUTCH, latched(10));
 /// Force on the hand, one for each pose, with the pose's stamp and frame: deformation to device.
-pub const SERVO_CF: Topic<WrenchStamped> = Topic::new("servo_cf", reliable(1000));
+pub const SERVO_CF: Topic<WrenchStamped> = Topic::new(topic::SERVO_CF, reliable(1000));
 /// Wrench on the hand in the device's base axes: anyone to device.
 pub const SPATIAL_SERVO_CF: Topic<WrenchStamped> = Topic::new("spatial/servo_cf", reliable(100));
 /// Wrench on the hand in the axes of the handle, or in base axes after `body/set_cf_orientation_absolute`: anyone to device.
@@ -106,13 +107,13 @@ pub const EMERGENCY_STOP: Topic<Bool> = Topic::new("emergency_stop", reliable(10
 /// Changes of the device's lifecycle state: device.
 pub const TRANSITION_EVENT: Topic<TransitionEvent> = Topic::new("~/transition_event", reliable(10));
 /// What the device's motor loop needs until the next force: deformation to device.
-pub const CONTACT_LAW: Topic<ContactLaw> = Topic::new("contact_law", reliable(10));
+pub const CONTACT_LAW: Topic<ContactLaw> = Topic::new(topic::CONTACT_LAW, reliable(10));
 /// The contact, one for each pose: deformation.
-pub const CONTACT_STATE: Topic<ContactState> = Topic::new("contact_state", reliable(1000));
+pub const CONTACT_STATE: Topic<ContactState> = Topic::new(topic::CONTACT_STATE, reliable(1000));
 /// How far the surface is from rest: deformation, at `surface.rate`.
-pub const SURFACE_DISPLACEMENT: Topic<SurfaceDisplacement> = Topic::new("surface_displacement", reliable(10));
+pub const SURFACE_DISPLACEMENT: Topic<SurfaceDisplacement> = Topic::new(topic::SURFACE_DISPLACEMENT, reliable(10));
 /// The rest surface: deformation, latched.
-pub const BODY_MESH: Topic<Mesh> = Topic::new("body_mesh", latched(1));
+pub const BODY_MESH: Topic<Mesh> = Topic::new(topic::BODY_MESH, latched(1));
 /// Messages on grasp, gripper and clutch of all devices that the model has taken into account since its start:
 /// deformation, latched, for a replay in lockstep.
 pub const BUTTONS_HEARD: Topic<UInt64> = Topic::new("buttons_heard", latched(1));
@@ -130,9 +131,9 @@ pub const PARAMETER_EVENTS: Topic<ParameterEvent> =
 /// Simulated time, with `use_sim_time`.
 pub const CLOCK: Topic<Clock> = Topic::new("/clock", QosProfile::default().keep_last(1).best_effort());
 /// Transforms that move.
-pub const TF: Topic<TFMessage> = Topic::new("/tf", reliable(100));
+pub const TF: Topic<TFMessage> = Topic::new(topic::TF, reliable(100));
 /// Transforms that stay.
-pub const TF_STATIC: Topic<TFMessage> = Topic::new("/tf_static", latched(100));
+pub const TF_STATIC: Topic<TFMessage> = Topic::new(topic::TF_STATIC, latched(100));
 
 /// A button of a device in buttons\[0\] (0 released, 1 pressed, 2 clicked: pressed only briefly), by the name that the
 /// device gives it: device, latched.

@@ -48,6 +48,7 @@ mod session;
 mod settings;
 mod sites;
 mod stiffness_file;
+pub mod topic;
 mod value;
 mod yaml;
 mod yaml_value;

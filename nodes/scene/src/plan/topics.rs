@@ -1,6 +1,6 @@
 //! The topics of a session: who tells whom, and which of them stay silent in a scene.
 
-use crate::Scene;
+use crate::{Scene, topic};
 
 /// A topic of the session.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,13 +33,13 @@ type Row = (&'static str, &'static str, &'static str, &'static str);
 
 /// One of each for every device.
 const DEVICE: [Row; 22] = [
-    ("measured_cp", "geometry_msgs/PoseStamped", "haptic_device", "deformation, visualization"),
+    (topic::MEASURED_CP, "geometry_msgs/PoseStamped", "haptic_device", "deformation, visualization"),
     ("measured_cv", "geometry_msgs/TwistStamped", "haptic_device", ""),
     ("measured_cf", "geometry_msgs/WrenchStamped", "haptic_device", ""),
     ("spatial/measured_cf", "geometry_msgs/WrenchStamped", "haptic_device", ""),
     ("body/measured_cf", "geometry_msgs/WrenchStamped", "haptic_device", ""),
     ("measured_js", "sensor_msgs/JointState", "haptic_device", ""),
-    ("gripper/measured_js", "sensor_msgs/JointState", "haptic_device", "deformation"),
+    (topic::GRIPPER_MEASURED_JS, "sensor_msgs/JointState", "haptic_device", "deformation"),
     ("operating_state", "crtk_msgs/OperatingState", "haptic_device", ""),
     ("state_command", "crtk_msgs/StringStamped", "anyone", "haptic_device"),
     ("emergency_stop", "std_msgs/Bool", "anyone", "haptic_device"),
@@ -47,20 +47,20 @@ const DEVICE: [Row; 22] = [
     ("free", "std_msgs/Empty", "anyone", "haptic_device"),
     ("use_gravity_compensation", "std_msgs/Bool", "anyone", "haptic_device"),
     ("body/set_cf_orientation_absolute", "std_msgs/Bool", "anyone", "haptic_device"),
-    ("grasp", "std_msgs/Bool", "anyone", "deformation"),
-    ("clutch", "sensor_msgs/Joy", "haptic_device", "deformation"),
-    ("servo_cf", "geometry_msgs/WrenchStamped", "deformation", "haptic_device, visualization"),
+    (topic::GRASP, "std_msgs/Bool", "anyone", "deformation"),
+    (topic::CLUTCH, "sensor_msgs/Joy", "haptic_device", "deformation"),
+    (topic::SERVO_CF, "geometry_msgs/WrenchStamped", "deformation", "haptic_device, visualization"),
     ("spatial/servo_cf", "geometry_msgs/WrenchStamped", "anyone", "haptic_device"),
     ("body/servo_cf", "geometry_msgs/WrenchStamped", "anyone", "haptic_device"),
     ("gripper/servo_jf", "sensor_msgs/JointState", "anyone", "haptic_device"),
-    ("contact_law", "rhombus_haptics_msgs/ContactLaw", "deformation", "haptic_device"),
-    ("contact_state", "rhombus_haptics_msgs/ContactState", "deformation", "visualization"),
+    (topic::CONTACT_LAW, "rhombus_haptics_msgs/ContactLaw", "deformation", "haptic_device"),
+    (topic::CONTACT_STATE, "rhombus_haptics_msgs/ContactState", "deformation", "visualization"),
 ];
 
 /// One for the session; `~` is the node that publishes.
 const SESSION: [Row; 12] = [
-    ("surface_displacement", "rhombus_haptics_msgs/SurfaceDisplacement", "deformation", "visualization"),
-    ("body_mesh", "shape_msgs/Mesh", "deformation", "visualization"),
+    (topic::SURFACE_DISPLACEMENT, "rhombus_haptics_msgs/SurfaceDisplacement", "deformation", "visualization"),
+    (topic::BODY_MESH, "shape_msgs/Mesh", "deformation", "visualization"),
     ("buttons_heard", "std_msgs/UInt64", "deformation", "bag_replay"),
     ("transforms_heard", "std_msgs/UInt64", "deformation", "bag_replay"),
     ("markers", "visualization_msgs/MarkerArray", "visualization", ""),
@@ -69,8 +69,8 @@ const SESSION: [Row; 12] = [
     ("/rosout", "rcl_interfaces/Log", "every node", ""),
     ("/parameter_events", "rcl_interfaces/ParameterEvent", "every node", ""),
     ("/clock", "rosgraph_msgs/Clock", "anyone", "every node"),
-    ("/tf", "tf2_msgs/TFMessage", "haptic_device, visualization", "deformation"),
-    ("/tf_static", "tf2_msgs/TFMessage", "visualization", "deformation"),
+    (topic::TF, "tf2_msgs/TFMessage", "haptic_device, visualization", "deformation"),
+    (topic::TF_STATIC, "tf2_msgs/TFMessage", "visualization", "deformation"),
 ];
 
 pub(super) fn planned(scene: &Scene) -> Vec<PlannedTopic> {
