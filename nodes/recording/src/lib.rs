@@ -9,6 +9,7 @@
 
 mod block;
 pub mod cdr;
+pub mod check;
 mod compare;
 mod chunk;
 mod compression;
@@ -28,6 +29,7 @@ mod metadata;
 mod order;
 mod qos;
 mod reader;
+pub mod repair;
 mod topic;
 mod writer;
 

@@ -1,0 +1,190 @@
+//! Saves from a broken recording what can be read, into a new one that is whole.
+//!
+//! The old recording is not touched. The new one grows under a temporary name beside its place, is read back, and gets
+//! its name at the very end: a full disk or an interruption leaves nothing that looks like a recording.
+
+mod output;
+mod tally;
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::check::as_text;
+use crate::error::Error;
+use crate::reader::Recording;
+use crate::writer::Writer;
+
+use output::Place;
+pub use output::default_output;
+use tally::Tally;
+
+/// Sentences about unreadable places that are kept; more are counted only.
+const MOST_SENTENCES: usize = 50;
+/// Messages between two questions whether to go on.
+const MESSAGES_BETWEEN_QUESTIONS: u64 = 1000;
+
+/// Why nothing was saved. Nothing is left behind then.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RepairError {
+    /// Nothing can be read.
+    #[error("nothing can be read: {0}")]
+    Unreadable(String),
+    /// The new recording cannot be written.
+    #[error(transparent)]
+    Output(#[from] Error),
+    /// The new recording would be inside of the old one.
+    #[error("{}: is inside of {}, which is not touched; choose a place outside", output.display(), path.display())]
+    Inside {
+        /// The new one.
+        output: PathBuf,
+        /// The old one.
+        path: PathBuf,
+    },
+    /// What was written does not read back.
+    #[error("{}: does not read back as it was written: {reason}; the disk may be failing", output.display())]
+    ReadBack {
+        /// The new one.
+        output: PathBuf,
+        /// What differs.
+        reason: String,
+    },
+    /// The caller wanted no more.
+    #[error("interrupted; nothing is left behind")]
+    Interrupted,
+}
+
+/// What became of a topic.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct SavedTopic {
+    /// Absolute name.
+    pub name: String,
+    /// Such as `geometry_msgs/msg/PoseStamped`.
+    #[serde(rename = "type")]
+    pub type_name: String,
+    /// Messages in the new recording.
+    pub saved: u64,
+    /// Messages that were recorded and are not in it; `None` where the old recording does not say how many it had.
+    pub lost: Option<u64>,
+}
+
+/// What [`repair`] did.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Repaired {
+    /// The old recording.
+    #[serde(serialize_with = "as_text")]
+    pub path: PathBuf,
+    /// The new one, a directory.
+    #[serde(serialize_with = "as_text")]
+    pub output: PathBuf,
+    /// Messages in the new recording.
+    pub saved: u64,
+    /// Messages known to be lost.
+    pub lost: u64,
+    /// Whether every message that the old recording had is in the new one.
+    pub all_saved: bool,
+    /// What was broken, a sentence each with its place.
+    pub problems: Vec<String>,
+    /// Problems beyond those that are said.
+    pub more_problems: u64,
+    /// In the order in which they came into the recording.
+    pub topics: Vec<SavedTopic>,
+}
+
+/// Writes what can be read of the recording at `path` to a new recording `output`, a directory that must not exist, with
+/// the topics, QoS, definitions and times as they were, and reads it back. `go_on` is asked now and then.
+///
+/// # Errors
+/// When nothing can be read, `output` exists or cannot be written, or `go_on` said no. Nothing is left of `output` then.
+pub fn repair(path: &Path, output: &Path, go_on: &dyn Fn() -> bool) -> Result<Repaired, RepairError> {
+    let place = Place::beside(output, path)?;
+    let recording = Recording::open(path).map_err(|error| RepairError::Unreadable(error.to_string()))?;
+    let metadata = crate::check::metadata_of(path);
+    let distro = metadata.as_ref().map_or("", |metadata| metadata.ros_distro.as_str());
+    let mut tally = Tally::new(&recording, metadata.as_ref());
+    let mut writer = Writer::create(place.unfinished(), distro)?;
+    let mut topics = Vec::new();
+    for found in recording.topics() {
+        topics.push(writer.add_topic(found.topic.clone())?);
+    }
+    let mut problems = Problems::default();
+    recording.damage().iter().for_each(|damage| problems.add(damage.to_string()));
+    recording.metadata_disagreements().iter().for_each(|sentence| problems.add(sentence.clone()));
+    let mut stored = recording.stored_messages();
+    while let Some(message) = stored.next_ref() {
+        match message {
+            Ok(message) => {
+                let Some(topic) = topics.get(message.topic) else { continue };
+                writer.copy(*topic, &message)?;
+                tally.take(&message);
+                ask(&tally, go_on)?;
+            }
+            Err(error) => {
+                tally.unreadable_place();
+                problems.add(error.to_string());
+            }
+        }
+    }
+    if tally.saved() == 0 && (!problems.said.is_empty() || tally.lost() > 0) {
+        let reason = problems.said.into_iter().next();
+        return Err(RepairError::Unreadable(reason.unwrap_or_else(|| "no message is left".to_owned())));
+    }
+    writer.close()?;
+    read_back(place.unfinished(), &tally, go_on)?;
+    place.finish()?;
+    Ok(Repaired {
+        path: path.to_owned(),
+        output: output.to_owned(),
+        saved: tally.saved(),
+        lost: tally.lost(),
+        all_saved: tally.all_saved(),
+        problems: problems.said,
+        more_problems: problems.more,
+        topics: tally.topics(),
+    })
+}
+
+/// A new recording is whole, and has what was written.
+fn read_back(written: &Path, tally: &Tally<'_>, go_on: &dyn Fn() -> bool) -> Result<(), RepairError> {
+    let differs = |reason: String| RepairError::ReadBack { output: written.to_owned(), reason };
+    let recording = Recording::open(written)?;
+    if let Some(damage) = recording.damage().first() {
+        return Err(differs(damage.to_string()));
+    }
+    if let Some(disagreement) = recording.metadata_disagreements().first() {
+        return Err(differs(disagreement.clone()));
+    }
+    let mut again = Tally::new(&recording, None);
+    let mut stored = recording.stored_messages();
+    while let Some(message) = stored.next_ref() {
+        again.take(&message?);
+        ask(&again, go_on)?;
+    }
+    tally.compare(&again).map_err(differs)
+}
+
+/// Asks now and then whether to go on.
+fn ask(tally: &Tally<'_>, go_on: &dyn Fn() -> bool) -> Result<(), RepairError> {
+    match tally.saved().is_multiple_of(MESSAGES_BETWEEN_QUESTIONS) && !go_on() {
+        true => Err(RepairError::Interrupted),
+        false => Ok(()),
+    }
+}
+
+/// Sentences, the first ones kept.
+#[derive(Default)]
+struct Problems {
+    said: Vec<String>,
+    more: u64,
+}
+
+impl Problems {
+    fn add(&mut self, sentence: String) {
+        if self.said.len() < MOST_SENTENCES {
+            self.said.push(sentence);
+        } else {
+            self.more += 1;
+        }
+    }
+}

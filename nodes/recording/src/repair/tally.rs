@@ -1,0 +1,113 @@
+//! What was saved of each topic, and what was lost.
+
+use super::SavedTopic;
+use crate::check::count_in;
+use crate::error::Error;
+use crate::metadata::Metadata;
+use crate::reader::{MessageRef, Recording};
+
+/// Counts messages topic by topic.
+pub(super) struct Tally<'a> {
+    recording: &'a Recording,
+    topics: Vec<Counts>,
+    saved: u64,
+    /// `metadata.yaml` says how many messages there were.
+    announced: bool,
+    /// There are places that cannot be read and may have held messages.
+    unreadable: bool,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Counts {
+    /// How many there were, as far as the recording says.
+    recorded: u64,
+    saved: u64,
+    /// Over all messages, whatever their order: what was written and what is read back must have the same.
+    checksum: u64,
+}
+
+impl<'a> Tally<'a> {
+    pub(super) fn new(recording: &'a Recording, metadata: Option<&Metadata>) -> Self {
+        let counts = recording.topics().iter().map(|found| {
+            let announced = metadata.map_or(0, |metadata| count_in(metadata, &found.topic));
+            Counts { recorded: found.message_count.max(announced), saved: 0, checksum: 0 }
+        });
+        let announced = metadata.is_some_and(|metadata| metadata.message_count > 0);
+        let unreadable = recording.damage().iter().any(costs_messages);
+        Self { recording, topics: counts.collect(), saved: 0, announced, unreadable }
+    }
+
+    pub(super) fn take(&mut self, message: &MessageRef<'_>) {
+        if let Some(topic) = self.topics.get_mut(message.topic) {
+            topic.saved += 1;
+            self.saved += 1;
+            let times = message.log_time_ns.rotate_left(13) ^ message.publish_time_ns;
+            let data = u64::from(crc32fast::hash(message.data)) << 32 | u64::from(message.sequence);
+            topic.checksum = topic.checksum.wrapping_add((times ^ data).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        }
+    }
+
+    pub(super) fn unreadable_place(&mut self) {
+        self.unreadable = true;
+    }
+
+    pub(super) fn saved(&self) -> u64 {
+        self.saved
+    }
+
+    /// As far as it is known.
+    pub(super) fn lost(&self) -> u64 {
+        self.topics.iter().map(Counts::lost).sum()
+    }
+
+    /// Whether nothing is missing and nothing could be missing.
+    pub(super) fn all_saved(&self) -> bool {
+        self.lost() == 0 && (self.announced || !self.unreadable)
+    }
+
+    pub(super) fn topics(&self) -> Vec<SavedTopic> {
+        // A count above what was saved can only be one that the recording stored.
+        let known = self.announced || !self.unreadable || self.lost() > 0;
+        let names = self.recording.topics().iter().zip(&self.topics);
+        let saved = names.map(|(found, counts)| SavedTopic {
+            name: found.topic.name.clone(),
+            type_name: found.topic.type_name.clone(),
+            saved: counts.saved,
+            lost: known.then(|| counts.lost()),
+        });
+        saved.collect()
+    }
+
+    /// Whether `read` has the same messages, topic by topic; otherwise which topic has not.
+    pub(super) fn compare(&self, read: &Self) -> Result<(), String> {
+        let written = self.recording.topics().iter().zip(&self.topics);
+        for (found, counts) in written {
+            let name = &found.topic.name;
+            let of_read = read.recording.topics().iter().zip(&read.topics);
+            let again = of_read.filter(|(other, _)| {
+                other.topic.name == *name && other.topic.type_name == found.topic.type_name
+            });
+            let again = again.map(|(_, counts)| *counts).next().unwrap_or(Counts::NONE);
+            if again.saved != counts.saved {
+                return Err(format!("{name}: {} messages written, {} read", counts.saved, again.saved));
+            }
+            if again.checksum != counts.checksum {
+                return Err(format!("{name}: the messages are not the same"));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Counts {
+    const NONE: Self = Self { recorded: 0, saved: 0, checksum: 0 };
+
+    fn lost(&self) -> u64 {
+        self.recorded.saturating_sub(self.saved)
+    }
+}
+
+/// Everything but missing closing records: those say nothing that the messages do not.
+fn costs_messages(damage: &Error) -> bool {
+    !damage.to_string().contains("closing records")
+}

@@ -1,0 +1,79 @@
+//! `rhombus bag repair`: what can be read of a broken recording, as a new one.
+
+use std::fmt::Write;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::anyhow;
+use clap::{Args, ValueHint};
+use recording::repair::{Repaired, default_output, repair};
+use signal_hook::consts::{SIGINT, SIGTERM};
+
+use super::guard::reason;
+use super::text::counted;
+use crate::output;
+
+/// Write what can be read of a recording to a new one that is whole
+///
+/// Topics, QoS, definitions, times and messages stay as they were. PATH is not touched and nothing is overwritten; a full
+/// disk or Ctrl-C leaves nothing behind. Exit code 0: every message that was recorded is in the new recording. 1: some are
+/// lost, or it is not known. 2: nothing can be read, or the new recording cannot be written. 3: wrong usage.
+#[derive(Args)]
+pub(crate) struct Repair {
+    /// rosbag2 directory, or an .mcap or .db3 file
+    #[arg(value_name = "PATH", value_hint = ValueHint::AnyPath)]
+    path: PathBuf,
+    /// Directory to write; by default PATH_repaired
+    #[arg(short, long, value_name = "NEW", value_hint = ValueHint::DirPath)]
+    output: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Repair {
+    pub(crate) fn run(self) -> anyhow::Result<ExitCode> {
+        let output = self.output.unwrap_or_else(|| default_output(&self.path));
+        let stopped = Arc::new(AtomicBool::new(false));
+        for signal in [SIGINT, SIGTERM] {
+            signal_hook::flag::register(signal, Arc::clone(&stopped))?;
+        }
+        let go_on = || !stopped.load(Ordering::Relaxed);
+        // What was written until a panic goes with it.
+        let repaired = catch_unwind(AssertUnwindSafe(|| repair(&self.path, &output, &go_on)))
+            .map_err(|panic| anyhow!("{}: {}", self.path.display(), reason(panic.as_ref())))??;
+        match self.json {
+            true => output::json(&repaired)?,
+            false => output::text(&said(&repaired)?)?,
+        }
+        Ok(if repaired.all_saved { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    }
+}
+
+fn said(repaired: &Repaired) -> Result<String, std::fmt::Error> {
+    let mut text = String::new();
+    for problem in &repaired.problems {
+        writeln!(text, "problem: {problem}")?;
+    }
+    if repaired.more_problems > 0 {
+        writeln!(text, "and {} more problems", repaired.more_problems)?;
+    }
+    for topic in &repaired.topics {
+        let lost = match topic.lost {
+            Some(lost) => format!("{lost} lost"),
+            None => "how many are lost is not known".to_owned(),
+        };
+        writeln!(text, "{}: {} saved, {lost}", topic.name, topic.saved)?;
+    }
+    let (saved, output) = (counted(repaired.saved, "message"), repaired.output.display());
+    let lost = match (repaired.all_saved, repaired.lost) {
+        (true, _) => "nothing lost".to_owned(),
+        (false, 0) => "how many are lost is not known: the recording does not say how many it had".to_owned(),
+        (false, lost) => format!("{lost} lost"),
+    };
+    writeln!(text, "{output}: whole: {saved} saved, {lost}")?;
+    Ok(text)
+}
