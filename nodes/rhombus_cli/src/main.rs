@@ -2,6 +2,7 @@
 //! line or an input was not accepted.
 
 mod assignments;
+mod bag;
 #[cfg(feature = "device")]
 mod device;
 mod evaluate;
@@ -27,6 +28,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    #[command(subcommand)]
+    Bag(bag::Bag),
     Calibrate(Box<calibrate::Calibrate>),
     #[cfg(feature = "device")]
     #[command(subcommand)]
@@ -42,7 +45,12 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let done = match Arguments::parse().command {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return not_accepted(&error),
+    };
+    let done = match arguments.command {
+        Command::Bag(command) => return command.run().unwrap_or_else(|error| refused(&error)),
         Command::Calibrate(command) => command.run(),
         #[cfg(feature = "device")]
         Command::Device(command) => return command.run().unwrap_or_else(|error| refused(&error)),
@@ -63,4 +71,16 @@ fn main() -> ExitCode {
 fn refused(error: &anyhow::Error) -> ExitCode {
     eprintln!("rhombus: {error:#}");
     ExitCode::from(2)
+}
+
+/// Help and version are no errors. Wrong usage is 2, but for the commands that say something else with 2.
+fn not_accepted(error: &clap::Error) -> ExitCode {
+    // Whoever closed the pipe does not want to read it.
+    let _ = error.print();
+    let command = std::env::args_os().nth(1);
+    match error.exit_code() {
+        0 => ExitCode::SUCCESS,
+        _ if command.is_some_and(|command| command == "bag") => ExitCode::from(bag::WRONG_USAGE),
+        _ => ExitCode::from(2),
+    }
 }
