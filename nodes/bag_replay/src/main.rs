@@ -6,7 +6,6 @@ mod names;
 mod play;
 mod rcl;
 mod record;
-mod schedule;
 mod session;
 mod settings;
 mod storage;

@@ -2,6 +2,8 @@
 
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+use anyhow::bail;
+
 /// `name` as the graph knows it: relative names stand in the node's namespace.
 pub(crate) fn absolute(namespace: &str, name: &str) -> String {
     if name.starts_with('/') {
@@ -11,8 +13,20 @@ pub(crate) fn absolute(namespace: &str, name: &str) -> String {
     }
 }
 
+/// The absolute name that a parameter means.
+///
+/// # Errors
+/// ROS would not accept the name; `key` is the parameter.
+pub(crate) fn topic(namespace: &str, name: &str, key: &str) -> anyhow::Result<String> {
+    let name = absolute(namespace, name);
+    if is_topic(&name) {
+        return Ok(name);
+    }
+    bail!("{key}: {name:?} is not the name of a topic; accepted: letters, digits and '_' behind each '/'")
+}
+
 /// Whether an absolute name is one that ROS accepts for a topic: words of letters, digits and `_` behind a `/` each.
-pub(crate) fn is_topic(name: &str) -> bool {
+fn is_topic(name: &str) -> bool {
     let is_word = |word: &str| {
         word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
             && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')

@@ -18,7 +18,7 @@ use anyhow::{Context as _, bail};
 use node_kit::NodeKit;
 use r2r_rcl as c;
 
-pub(crate) use subscription::{Subscription, Taken};
+pub(crate) use subscription::Subscription;
 pub(crate) use wait::WaitSet;
 
 /// A node of its own context, for subscriptions alone.

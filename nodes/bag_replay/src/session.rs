@@ -82,7 +82,7 @@ pub(crate) fn is_button(namespace: &str, devices: &[String], name: &str, type_na
 }
 
 /// "geometry_msgs/msg/PoseStamped" of r2r's type.
-fn type_name_of<M>() -> String {
+pub(crate) fn type_name_of<M>() -> String {
     let path = std::any::type_name::<M>();
     let words: Vec<&str> = path.rsplit("::").take(3).collect();
     words.into_iter().rev().collect::<Vec<_>>().join("/")

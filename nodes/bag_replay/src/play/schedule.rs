@@ -22,6 +22,12 @@ impl Schedule {
         let offset_s = log_time_ns.saturating_sub(self.first_ns) as f64 * 1e-9 / self.rate;
         self.start + Duration::try_from_secs_f64(offset_s).unwrap_or(LONGEST).min(LONGEST)
     }
+
+    /// The time of the recording, ns since 1970.
+    pub(crate) fn time_ns(&self, now: Instant) -> u64 {
+        let played_ns = now.saturating_duration_since(self.start).as_nanos() as f64 * self.rate;
+        self.first_ns.saturating_add(played_ns as u64)
+    }
 }
 
 #[cfg(test)]
@@ -39,5 +45,13 @@ mod tests {
         assert_eq!(at(0.5, 1_700_000_001_000_000_000), Duration::from_secs(2));
         assert_eq!(at(1.0, 0), Duration::ZERO);
         assert!(at(0.01, u64::MAX) > Duration::from_secs(86_400));
+    }
+
+    #[test]
+    fn the_time_of_the_recording_goes_on_at_the_rate() {
+        let start = Instant::now();
+        let schedule = Schedule::new(start, 5_000_000_000, 0.5);
+        assert_eq!(schedule.time_ns(start), 5_000_000_000);
+        assert_eq!(schedule.time_ns(start + Duration::from_secs(4)), 7_000_000_000);
     }
 }
