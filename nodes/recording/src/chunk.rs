@@ -92,6 +92,8 @@ pub(crate) fn load(
     };
     let mut damage = Vec::new();
     let mut undescribed = BTreeMap::<u16, u64>::new();
+    let mut short = Strange::default();
+    let mut unknown = Strange::default();
     // A pose with its head has some 160 bytes.
     let mut entries = Vec::with_capacity(bytes.len() / 128);
     for record in records(&bytes) {
@@ -109,15 +111,20 @@ pub(crate) fn load(
                     });
                 }
                 Some((head, _)) => *undescribed.entry(head.channel).or_default() += 1,
-                None => damage.push(damaged(record.offset, "a message shorter than its head")),
+                None => short.add(record.offset),
             },
             // Records of applications begin at 0x80; between them and those of the format there are none yet.
             Ok(record) if !(op::HEADER..=op::DATA_END).contains(&record.opcode) && record.opcode < 0x80 => {
-                let reason = format!("a record of unknown kind {:#04x}", record.opcode);
-                damage.push(damaged(record.offset, &reason));
+                unknown.add(record.offset);
             }
             Ok(_) => {}
             Err(at) => damage.push(damaged(at, "a record is longer than the chunk it is in")),
+        }
+    }
+    for (strange, what) in [(short, "messages shorter than their head"), (unknown, "records of unknown kind")]
+    {
+        if let Some(first) = strange.first {
+            damage.push(damaged(first, &format!("{} {what}, the first one here", strange.count)));
         }
     }
     for (channel, count) in undescribed {
@@ -125,4 +132,18 @@ pub(crate) fn load(
         damage.push(damaged(0, &reason));
     }
     Ok(Loaded::new(bytes, entries, damage))
+}
+
+/// Records that are left out: a block can have millions of them, and they get one sentence.
+#[derive(Default)]
+struct Strange {
+    count: u64,
+    first: Option<usize>,
+}
+
+impl Strange {
+    fn add(&mut self, offset: usize) {
+        self.count += 1;
+        self.first.get_or_insert(offset);
+    }
 }

@@ -297,12 +297,11 @@ impl StoredMessages<'_> {
         self.blocks += 1;
         self.cursor = 0;
         self.file = located.file;
+        // Not two at a time.
+        self.loaded = Loaded::default();
         match self.recording.files.get(located.file)?.load(&located.block) {
             Ok(loaded) => self.loaded = loaded,
-            Err(error) => {
-                self.loaded = Loaded::default();
-                self.damage.push(error);
-            }
+            Err(error) => self.damage.push(error),
         }
         self.loaded.entries.sort_by_key(|entry| entry.data.start);
         self.damage.append(&mut self.loaded.damage);

@@ -12,6 +12,7 @@ use crate::compression;
 use crate::error::Error;
 use crate::file::McapFile;
 use crate::index;
+#[cfg(feature = "sqlite")]
 use crate::sqlite::SqliteFile;
 
 /// Ending of files that rosbag2 compressed as a whole.
@@ -37,6 +38,7 @@ enum Storage {
         /// Numbers of the channels that have a topic, ascending.
         channels: Vec<u32>,
     },
+    #[cfg(feature = "sqlite")]
     Sqlite(Box<SqliteFile>),
 }
 
@@ -56,8 +58,7 @@ impl RecordedFile {
         let is_database = name.extension().is_some_and(|extension| extension == SQLITE)
             || begins_with(readable, SQLITE_MAGIC).map_err(Error::io(path, "open"))?;
         let (storage, mut index) = if is_database {
-            let (file, index) = SqliteFile::open(readable, path)?;
-            (Storage::Sqlite(Box::new(file)), index)
+            open_database(readable, path)?
         } else {
             let file = McapFile::open(readable, path)?;
             let index = index::of(&file, compression::allowance(stored))?;
@@ -78,6 +79,7 @@ impl RecordedFile {
             Storage::Mcap { file, channels } => {
                 chunk::load(file, block, |channel| channels.binary_search(&channel).is_ok())
             }
+            #[cfg(feature = "sqlite")]
             Storage::Sqlite(file) => Ok(file.load(block)),
         }
     }
@@ -87,6 +89,20 @@ impl std::fmt::Debug for RecordedFile {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.debug_struct("RecordedFile").field("path", &self.path).finish_non_exhaustive()
     }
+}
+
+/// Opens the database at `readable`; `path` is its name in what is said about it.
+#[cfg(feature = "sqlite")]
+fn open_database(readable: &Path, path: &Path) -> Result<(Storage, FileIndex), Error> {
+    let (file, index) = SqliteFile::open(readable, path)?;
+    Ok((Storage::Sqlite(Box::new(file)), index))
+}
+
+/// Says that databases were left out when this program was built.
+#[cfg(not(feature = "sqlite"))]
+fn open_database(_: &Path, path: &Path) -> Result<(Storage, FileIndex), Error> {
+    let what = "SQLite storage (this program was built without the feature `sqlite`)".to_owned();
+    Err(Error::Unsupported { path: path.to_owned(), what })
 }
 
 fn begins_with(path: &Path, magic: &[u8]) -> std::io::Result<bool> {

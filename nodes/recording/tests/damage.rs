@@ -3,11 +3,11 @@
 
 mod common;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use common::*;
 use proptest::prelude::*;
-use recording::{Error, Recording, Writer};
+use recording::{Recording, Writer};
 
 /// The bytes of a closed recording of two seconds: four chunks or five.
 fn whole_file() -> Vec<u8> {
@@ -15,13 +15,6 @@ fn whole_file() -> Vec<u8> {
     let path = directory.path().join("session");
     recorded(&path, 2000);
     std::fs::read(path.join("session_0.mcap")).unwrap()
-}
-
-fn opened(bytes: &[u8]) -> Result<Recording, Error> {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("broken.mcap");
-    std::fs::write(&path, bytes).unwrap();
-    Recording::open(&path)
 }
 
 #[test]
@@ -124,18 +117,25 @@ fn a_summary_that_is_wrong_is_not_believed() {
 }
 
 #[test]
-fn a_file_cut_anywhere_opens_and_has_every_message_of_the_chunks_before_the_cut() {
+fn a_file_cut_anywhere_opens_and_has_every_message_before_the_cut() {
     let bytes = whole_file();
     let chunk = first_chunk(&bytes);
     let chunk_end = chunk + 9 + u64::from_le_bytes(bytes[chunk + 1..chunk + 9].try_into().unwrap()) as usize;
     let in_first = read(&opened(&bytes[..chunk_end]).unwrap()).0.len();
     assert!(in_first > 400, "{in_first}");
-    let cuts = (chunk..chunk + 40).map(|cut| (cut, 0)).chain([(chunk_end - 1, 0)]);
-    for (cut, messages) in cuts.chain((chunk_end..chunk_end + 40).map(|cut| (cut, in_first))) {
+    // The channel is described in the first 700 bytes of the chunk; a message has 115 bytes or so.
+    let cuts = (chunk..chunk + 40).chain([chunk + 1000, chunk + 20_000, chunk_end - 1]);
+    for cut in cuts.chain(chunk_end..chunk_end + 40) {
         let recording = opened(&bytes[..cut]).unwrap();
-        assert_eq!(recording.damage().len(), 1, "cut at {cut}: {:?}", recording.damage());
+        let damage = recording.damage();
+        assert!(damage.last().unwrap().to_string().contains("stopped hard"), "cut at {cut}: {damage:?}");
         let (found, errors) = read(&recording);
-        assert_eq!((found.len(), errors.len()), (messages, 0), "cut at {cut}");
+        let expected = (cut.min(chunk_end).saturating_sub(chunk + 700) / 115).min(in_first);
+        assert!(found.len() >= expected, "cut at {cut}: {} of {expected}", found.len());
+        assert!(errors.is_empty(), "cut at {cut}: {errors:?}");
+        for (number, message) in (0..).zip(&found) {
+            assert_eq!(message.log_time_ns, log_time_ns(number), "cut at {cut}");
+        }
     }
 }
 
@@ -154,27 +154,8 @@ fn what_is_no_recording_is_refused_with_its_name() {
     refused(&at("empty.mcap"), &["empty"]);
     std::fs::write(at("text.mcap"), "not a recording at all").unwrap();
     refused(&at("text.mcap"), &["magic bytes"]);
-    std::fs::write(at("old.db3"), "SQLite format 3\0").unwrap();
-    refused(&at("old.db3"), &["SQLite", "ros2 bag convert"]);
     std::fs::create_dir(at("folder")).unwrap();
-    refused(&at("folder"), &["metadata.yaml", ".mcap"]);
-}
-
-#[test]
-fn a_compressed_file_is_refused_at_once_and_the_error_says_how_to_convert_it() {
-    let bytes = whole_file();
-    // The name of the compression of the first chunk, which is empty, becomes "zstd".
-    let chunk = first_chunk(&bytes);
-    let mut compressed = bytes[..chunk].to_vec();
-    let length = u64::from_le_bytes(bytes[chunk + 1..chunk + 9].try_into().unwrap());
-    compressed.push(bytes[chunk]);
-    compressed.extend((length + 4).to_le_bytes());
-    compressed.extend(&bytes[chunk + 9..chunk + 9 + 28]);
-    compressed.extend(4_u32.to_le_bytes());
-    compressed.extend(b"zstd");
-    compressed.extend(&bytes[chunk + 9 + 32..]);
-    let message = opened(&compressed).unwrap_err().to_string();
-    assert!(message.contains("zstd") && message.contains("ros2 bag convert"), "{message}");
+    refused(&at("folder"), &[".mcap", ".db3"]);
 }
 
 fn first_chunk(bytes: &[u8]) -> usize {
@@ -244,14 +225,4 @@ fn place() -> impl Strategy<Value = Place> {
 
 thread_local! {
     static WHOLE: Vec<u8> = whole_file();
-}
-
-#[test]
-fn a_directory_that_names_a_missing_file_says_which() {
-    let directory = tempfile::tempdir().unwrap();
-    let path: PathBuf = directory.path().join("session");
-    recorded(&path, 1);
-    std::fs::remove_file(path.join("session_0.mcap")).unwrap();
-    let message = Recording::open(&path).unwrap_err().to_string();
-    assert!(message.contains("session_0.mcap"), "{message}");
 }

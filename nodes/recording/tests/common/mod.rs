@@ -1,6 +1,8 @@
 //! A recording for tests: what it contains follows from the number of each message.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
+pub(crate) mod mcap_files;
+
 use std::path::Path;
 
 use recording::cdr::encode;
@@ -63,4 +65,22 @@ pub(crate) fn read(recording: &Recording) -> (Vec<Message>, Vec<Error>) {
         }
     }
     (messages, errors)
+}
+
+/// What can be read of a file with these bytes.
+pub(crate) fn opened(bytes: &[u8]) -> Result<Recording, Error> {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("broken.mcap");
+    std::fs::write(&path, bytes).unwrap();
+    Recording::open(&path)
+}
+
+/// The numbers of the poses that are read, by their log times; every message must be the pose of its time.
+pub(crate) fn numbers(messages: &[Message]) -> Vec<u64> {
+    let number = |message: &Message| {
+        let number = (message.log_time_ns - START_NS) / STEP_NS;
+        assert_eq!(message.data, encode(&pose(number)), "message {number}");
+        number
+    };
+    messages.iter().map(number).collect()
 }

@@ -1,0 +1,228 @@
+//! Directories as recorders leave them: every metadata version, none, a broken one, one that disagrees; split and compressed
+//! files, and missing ones.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, which may panic")]
+
+mod common;
+
+use std::path::{Path, PathBuf};
+
+use common::mcap_files::*;
+use common::*;
+use recording::{Durability, Recording};
+
+const QOS_NUMBERS: &str = "- history: 1\\n  depth: 5\\n  reliability: 1\\n  durability: 1\\n  deadline:\\n    sec: 0\\n    nsec: 0\\n  \
+    lifespan:\\n    sec: 0\\n    nsec: 0\\n  liveliness: 1\\n  liveliness_lease_duration:\\n    sec: 0\\n    nsec: 0\\n  \
+    avoid_ros_namespace_conventions: false";
+
+/// `metadata.yaml` as the ROS 2 of each version writes it, for `count` poses in these files.
+fn metadata(version: u32, count: u64, files: &[&str]) -> String {
+    let (start, duration) = (log_time_ns(0), (count.max(1) - 1) * STEP_NS);
+    let mut text =
+        format!("rosbag2_bagfile_information:\n  version: {version}\n  storage_identifier: mcap\n");
+    if version <= 2 {
+        text += "  storage_format: cdr\n";
+    }
+    text += &format!(
+        "  duration:\n    nanoseconds: {duration}\n  starting_time:\n    nanoseconds_since_epoch: {start}\n"
+    );
+    text += &format!("  message_count: {count}\n  topics_with_message_count:\n    - topic_metadata:\n");
+    text += &format!("        name: /pose\n        type: {TYPE}\n        serialization_format: cdr\n");
+    match version {
+        ..=3 => {}
+        4..=8 => text += &format!("        offered_qos_profiles: \"{QOS_NUMBERS}\"\n"),
+        _ => {
+            text += "        offered_qos_profiles:\n          - history: keep_last\n            depth: 5\n            \
+                reliability: reliable\n            durability: transient_local\n            deadline:\n              \
+                sec: 0\n              nsec: 0\n            lifespan:\n              sec: 0\n              nsec: 0\n            \
+                liveliness: automatic\n            liveliness_lease_duration:\n              sec: 0\n              nsec: 0\n            \
+                avoid_ros_namespace_conventions: false\n";
+        }
+    }
+    if version >= 7 {
+        text += "        type_description_hash: RIHS01_12\n";
+    }
+    text += &format!("      message_count: {count}\n");
+    if version >= 3 {
+        text += "  compression_format: \"\"\n  compression_mode: \"\"\n";
+    }
+    text += "  relative_file_paths:\n";
+    for file in files {
+        text += &format!("    - {file}\n");
+    }
+    if version >= 5 {
+        text += "  files:\n";
+        for file in files {
+            text += &format!(
+                "    - path: {file}\n      starting_time:\n        nanoseconds_since_epoch: {start}\n      duration:\n        \
+                 nanoseconds: {duration}\n      message_count: {count}\n"
+            );
+        }
+    }
+    if version >= 6 {
+        text += "  custom_data:\n    operator: one\n    attempt: 3\n";
+    }
+    if version >= 8 {
+        text += "  ros_distro: jazzy\n";
+    }
+    text
+}
+
+/// A directory of such files.
+fn directory(files: &[(&str, &[u8])]) -> (tempfile::TempDir, PathBuf) {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    std::fs::create_dir(&path).unwrap();
+    for (name, bytes) in files {
+        std::fs::write(path.join(name), bytes).unwrap();
+    }
+    (directory, path)
+}
+
+fn found(path: &Path) -> (Vec<u64>, Vec<String>, Vec<String>) {
+    let recording = Recording::open(path).unwrap();
+    let (messages, errors) = read(&recording);
+    let damage = recording.damage().iter().chain(&errors).map(ToString::to_string).collect();
+    (numbers(&messages), damage, recording.metadata_disagreements().to_vec())
+}
+
+#[test]
+fn metadata_of_versions_1_to_9_is_read_and_completes_what_the_file_does_not_say() {
+    for version in 1..=9 {
+        let text = metadata(version, 100, &["session_0.mcap"]);
+        let (_guard, path) =
+            directory(&[("session_0.mcap", &file(PLAIN, 0..100, 50)), ("metadata.yaml", text.as_bytes())]);
+        let recording = Recording::open(&path).unwrap();
+        assert!(
+            recording.metadata_disagreements().is_empty(),
+            "{version}: {:?}",
+            recording.metadata_disagreements()
+        );
+        assert_eq!(read(&recording).0.len(), 100);
+        let topic = &recording.topics()[0].topic;
+        let durability = topic.offered_qos.first().map(|offer| offer.durability);
+        assert_eq!(durability, (version >= 4).then_some(Durability::TransientLocal), "{version}");
+        assert_eq!(topic.definition.type_hash, if version >= 7 { "RIHS01_12" } else { "" }, "{version}");
+    }
+}
+
+#[test]
+fn metadata_that_cannot_be_read_stops_nothing_and_is_named() {
+    let whole = metadata(9, 100, &["session_0.mcap"]);
+    let broken = [
+        whole.replace("version: 9", "version: 10").into_bytes(),
+        whole.replace("  storage_identifier: mcap\n", "").into_bytes(),
+        whole.as_bytes()[..300].to_vec(),
+        b"\xff\xfe\x00".to_vec(),
+        b"".to_vec(),
+        "a: &a [x]\nb: *c".as_bytes().to_vec(),
+        "[".repeat(100_000).into_bytes(),
+    ];
+    for text in broken {
+        let (_guard, path) =
+            directory(&[("session_0.mcap", &file(PLAIN, 0..100, 50)), ("metadata.yaml", &text)]);
+        let (messages, damage, disagreements) = found(&path);
+        assert_eq!((messages.len(), damage.len()), (100, 0));
+        assert!(disagreements.len() == 1 && disagreements[0].contains("metadata.yaml"), "{disagreements:?}");
+    }
+}
+
+#[test]
+fn where_metadata_and_files_disagree_the_files_are_right_and_the_difference_is_named() {
+    let text = metadata(9, 77, &["session_0.mcap"]).replace("name: /pose", "name: /other");
+    let (_guard, path) =
+        directory(&[("session_0.mcap", &file(PLAIN, 0..100, 50)), ("metadata.yaml", text.as_bytes())]);
+    let (messages, damage, disagreements) = found(&path);
+    assert_eq!((messages.len(), damage.len()), (100, 0));
+    let told = disagreements.join("\n");
+    for words in ["/other", "/pose", "77 messages", "there are 100", "76000000 ns", "99000000 ns"] {
+        assert!(told.contains(words), "{words} is missing in {told}");
+    }
+}
+
+#[test]
+fn a_missing_part_is_damage_and_the_others_are_read() {
+    let text = metadata(9, 300, &["session_0.mcap", "session/session_1.mcap", "session_2.mcap"]);
+    let (first, last) = (file(PLAIN, 0..100, 50), file(ZSTD, 200..300, 50));
+    let (_guard, path) = directory(&[
+        ("session_0.mcap", &first),
+        ("session_2.mcap", &last),
+        ("metadata.yaml", text.as_bytes()),
+    ]);
+    let (messages, damage, disagreements) = found(&path);
+    assert_eq!(messages, (0..100).chain(200..300).collect::<Vec<_>>());
+    assert!(damage.len() == 1 && damage[0].contains("session_1.mcap"), "{damage:?}");
+    assert!(disagreements.iter().any(|told| told.contains("session_1.mcap")), "{disagreements:?}");
+}
+
+#[test]
+fn a_part_that_metadata_does_not_name_yet_is_read_and_a_copy_in_another_storage_is_not() {
+    let text = metadata(9, 100, &["session_0.mcap"]);
+    let (first, second) = (file(PLAIN, 0..100, 50), file(PLAIN, 100..200, 50));
+    let (_guard, path) = directory(&[
+        ("session_0.mcap", &first),
+        ("session_1.mcap", &second),
+        ("copy.mcap", &first),
+        ("session_0.db3", b"not looked at"),
+        ("metadata.yaml", text.as_bytes()),
+    ]);
+    let (messages, damage, disagreements) = found(&path);
+    assert_eq!((messages, damage), ((0..200).collect(), vec![]));
+    assert!(
+        disagreements.iter().any(|told| told.contains("does not name session_1.mcap")),
+        "{disagreements:?}"
+    );
+}
+
+#[test]
+fn one_part_that_is_no_recording_at_all_does_not_stop_the_others() {
+    let (_guard, path) = directory(&[
+        ("session_0.mcap", b""),
+        ("session_1.mcap", &file(PLAIN, 0..10, 5)),
+        ("session_2.mcap", b"text"),
+    ]);
+    let (messages, damage, _) = found(&path);
+    assert_eq!((messages.len(), damage.len()), (10, 2));
+    assert!(damage[0].contains("empty") && damage[1].contains("magic"), "{damage:?}");
+}
+
+#[test]
+fn equal_times_in_several_parts_keep_the_order_of_the_parts() {
+    let (first, second) = (file(PLAIN, 0..50, 10), file(ZSTD, 0..50, 7));
+    let (_guard, path) = directory(&[("session_9.mcap", &first), ("session_10.mcap", &second)]);
+    let recording = Recording::open(&path).unwrap();
+    assert_eq!(numbers(&read(&recording).0), (0..50).flat_map(|number| [number, number]).collect::<Vec<_>>());
+    assert_eq!(recording.topics()[0].message_count, 100);
+}
+
+#[test]
+fn files_compressed_as_a_whole_are_read_alone_and_in_their_directory() {
+    let compressed = zstd::bulk::compress(&file(PLAIN, 0..500, 50), 3).unwrap();
+    let text = metadata(9, 500, &["session_0.mcap.zstd"])
+        .replace("compression_format: \"\"", "compression_format: zstd")
+        .replace("compression_mode: \"\"", "compression_mode: FILE");
+    let (_guard, path) =
+        directory(&[("session_0.mcap.zstd", &compressed), ("metadata.yaml", text.as_bytes())]);
+    for path in [path.clone(), path.join("session_0.mcap.zstd")] {
+        assert_eq!(found(&path), ((0..500).collect(), vec![], vec![]));
+    }
+    // Some versions name the file as it was before.
+    std::fs::write(path.join("metadata.yaml"), text.replace(".mcap.zstd", ".mcap")).unwrap();
+    assert_eq!(found(&path), ((0..500).collect(), vec![], vec![]));
+}
+
+#[test]
+fn a_compressed_file_that_is_cut_is_read_up_to_there_and_a_bomb_is_refused_in_time() {
+    let whole = file(PLAIN, 0..20_000, 500);
+    let compressed = zstd::bulk::compress(&whole, 1).unwrap();
+    let (_guard, path) = directory(&[("session_0.mcap.zstd", &compressed[..compressed.len() / 2])]);
+    let (messages, damage, _) = found(&path);
+    assert!(messages.len() > 2000 && messages.len() < 20_000, "{}", messages.len());
+    assert!(
+        damage.iter().any(|told| told.contains("session_0.mcap.zstd") && told.contains("breaks off")),
+        "{damage:?}"
+    );
+
+    let (_guard, path) = directory(&[("session_0.mcap.zstd", b"no compression at all")]);
+    let error = Recording::open(&path).unwrap_err().to_string();
+    assert!(error.contains("session_0.mcap.zstd") && error.contains("zstd"), "{error}");
+}
