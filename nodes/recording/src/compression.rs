@@ -12,7 +12,7 @@ use crate::block::MAX_BLOCK_BYTES;
 use crate::error::Error;
 
 /// The largest window of a zstd frame, 2 to this power: that of a frame made with `zstd -19`, and no more memory than a block.
-const WINDOW_LOG: u32 = 26;
+pub(crate) const WINDOW_LOG: u32 = 26;
 /// Bytes that a whole recording may decompress to, whatever its size ...
 const ANY_FILE_BYTES: u64 = 1 << 30;
 /// ... and for each of its own bytes. Together they stop a bomb long before it fills a disk or takes minutes.

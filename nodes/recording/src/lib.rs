@@ -16,6 +16,7 @@ mod compression;
 mod directory;
 mod fit;
 mod playback;
+#[cfg(feature = "sqlite")]
 mod sqlite;
 mod storage;
 mod summary;
@@ -44,4 +45,4 @@ pub use qos::{Durability, History, Liveliness, Qos, QosTime, Reliability};
 pub use playback::{Playback, PlaybackMessages};
 pub use reader::{Message, MessageRef, Messages, Recording, StoredMessages};
 pub use topic::{RecordedTopic, Topic};
-pub use writer::{TopicId, Writer, Written};
+pub use writer::{TopicId, Writer, WriterOptions, Written};

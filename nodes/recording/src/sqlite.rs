@@ -91,10 +91,6 @@ impl SqliteFile {
         Ok((Self { path: path.to_owned(), topics, pages, storage, _source: source }, index))
     }
 
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// Reads a block. What of it cannot be read is said in [`Loaded::damage`].
     pub(crate) fn load(&self, block: &Block) -> Loaded {
         let Place::Sqlite { part } = block.place else { return Loaded::default() };
@@ -139,7 +135,8 @@ impl SqliteFile {
                 let Some(span) = parts.get(part).copied() else { return Loaded::default() };
                 let damaged = |page, reason| Error::damaged(&self.path, self.pages.offset(page), reason);
                 let lost = |id, page| {
-                    let reason = format!("message {id} cannot be read: the pages on which it continues are broken");
+                    let reason =
+                        format!("message {id} cannot be read: the pages on which it continues are broken");
                     damage.push(damaged(page, reason));
                 };
                 leaves.load(&self.pages, span, take, lost);
@@ -172,13 +169,14 @@ fn whole(path: &Path, source: &Path, pages: &PageFile) -> Result<Opened, Failure
     let (topics, mut index) = empty_index(&schema.topics);
     index.damage.extend(schema.damage.iter().map(|reason| Error::damaged(path, 0, reason)));
     let mut collector = Collector::new(&topics, &mut index, pages.len);
-    let parts = query::scan(&database, &mut collector).map_err(|Stop { id, reason }| {
-        with_topics(reason, Some((root, id)))
-    })?;
+    let parts = query::scan(&database, &mut collector)
+        .map_err(|Stop { id, reason }| with_topics(reason, Some((root, id))))?;
     let refused = collector.finish();
-    index.damage.extend(refused.into_iter().map(|(id, reason)| {
-        Error::damaged(path, pages.offset(pages.page_of(root, id)), reason)
-    }));
+    index.damage.extend(
+        refused
+            .into_iter()
+            .map(|(id, reason)| Error::damaged(path, pages.offset(pages.page_of(root, id)), reason)),
+    );
     Ok((topics, Storage::Whole { database: Mutex::new(database), root, parts }, index))
 }
 
@@ -191,7 +189,7 @@ fn salvaged(path: &Path, pages: &PageFile, broken: Broken) -> Result<Opened, Str
     if topics.is_empty() {
         return Err(match found.leaves.count() {
             0 => reason,
-            count => format!("{reason}; there are {count} messages, but none of the topics is left"),
+            count => format!("{reason}; what is left of it has no topics, and {count} messages"),
         });
     }
     let (topics, mut index) = empty_index(&topics);
@@ -206,15 +204,18 @@ fn salvaged(path: &Path, pages: &PageFile, broken: Broken) -> Result<Opened, Str
     index.damage.extend(gaps.iter().take(MOST_GAPS).map(|gap| {
         let (Gap { ids: (first, last), page }, count) = (gap, gap.count());
         let page = broken_page(*first).unwrap_or(*page);
-        damaged(page, format!("{count} messages are lost: those with the ids {first} to {last}"))
+        damaged(page, format!("messages lost: {count}, with the ids {first} to {last}"))
     }));
     if let [first, rest @ ..] = gaps.get(MOST_GAPS..).unwrap_or_default() {
         let count = rest.iter().fold(first.count(), |count, gap| count.saturating_add(gap.count()));
         let places = rest.len() + 1;
-        index.damage.push(damaged(first.page, format!("{count} messages are lost in {places} more places from here on")));
+        index.damage.push(damaged(
+            first.page,
+            format!("messages lost: {count} in {places} more places from here on"),
+        ));
     }
     if found.repeated > 0 {
-        let reason = format!("{} messages are left out: others have their ids", found.repeated);
+        let reason = format!("messages left out because others have their ids: {}", found.repeated);
         index.damage.push(damaged(1, reason));
     }
     Ok((topics, Storage::Broken { leaves: found.leaves, parts }, index))

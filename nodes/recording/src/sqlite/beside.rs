@@ -40,7 +40,8 @@ pub(super) fn source(path: &Path) -> Result<Source, Error> {
     }
     let journal = beside(path, "-journal");
     if is_hot(&journal) {
-        let reason = "the recorder was stopped while it wrote to the database; its last messages may be incomplete";
+        let reason =
+            "the recorder was stopped while it wrote to the database; its last messages may be incomplete";
         return Ok(as_it_is(Some(Error::damaged(&journal, 0, reason))));
     }
     Ok(as_it_is(None))
@@ -71,19 +72,24 @@ fn joined(path: &Path, log: &Path) -> Result<Result<(TempDir, PathBuf), String>,
     for _ in 0..ATTEMPTS {
         let before = state(path, log)?;
         std::fs::copy(path, &copy).map_err(Error::io(path, "copy to the temporary directory"))?;
-        std::fs::copy(log, beside(&copy, "-wal")).map_err(Error::io(log, "copy to the temporary directory"))?;
+        std::fs::copy(log, beside(&copy, "-wal"))
+            .map_err(Error::io(log, "copy to the temporary directory"))?;
         // A log that only grew is whole up to some transaction; a database that changed belongs to another log.
         if state(path, log)? == before {
             // A log can claim pages far behind its end, which would make a file of terabytes.
             let most = size(path) + size(log);
             return Ok(match write_log_into(&copy) {
                 Ok(()) if size(&copy) <= most => Ok((directory, copy)),
-                Ok(()) => Err("the log speaks of pages that are neither in it nor in the database".to_owned()),
+                Ok(()) => {
+                    Err("the log speaks of pages that are neither in it nor in the database".to_owned())
+                }
                 Err(error) => Err(format!("the log cannot be joined with the database: {error}")),
             });
         }
     }
-    Ok(Err("the recorder writes faster than it can be copied; read the recording when it is closed".to_owned()))
+    Ok(Err(
+        "the recorder writes faster than it can be copied; read the recording when it is closed".to_owned()
+    ))
 }
 
 /// What changes when the log is written into the database.

@@ -5,6 +5,7 @@
 use std::io::Read;
 
 use crate::block::MAX_BLOCK_BYTES;
+use crate::compression::WINDOW_LOG;
 
 const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// The longest head of a frame, bytes.
@@ -49,7 +50,8 @@ pub(super) fn append(data: &[u8], bytes: &mut Vec<u8>) -> Result<(), String> {
 fn decompress(data: &[u8], left: usize, bytes: &mut Vec<u8>) -> Result<(), String> {
     let begin = bytes.len();
     let not_zstd = |error: std::io::Error| format!("is compressed and cannot be decompressed: {error}");
-    let decoder = zstd::stream::read::Decoder::with_buffer(data).map_err(not_zstd)?;
+    let mut decoder = zstd::stream::read::Decoder::with_buffer(data).map_err(not_zstd)?;
+    decoder.window_log_max(WINDOW_LOG).map_err(not_zstd)?;
     // One byte more than allowed tells a bomb from a message that fits exactly.
     decoder.single_frame().take(left as u64 + 1).read_to_end(bytes).map_err(not_zstd)?;
     if bytes.len() - begin > left {

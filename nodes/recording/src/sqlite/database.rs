@@ -114,13 +114,17 @@ impl Database {
             Some((kind, true)) if kind == "table" => {
                 return refused(format!("its table {name:?} has no row numbers"));
             }
-            Some((kind, _)) => return refused(format!("its {name:?} is a {kind} and no table")),
+            Some((kind, _)) => {
+                return refused(format!("its {name:?} is of the kind {kind:?} and no plain table"));
+            }
         }
         let columns = self.columns(name)?;
         if let Some(column) = columns.iter().find(|column| column.is_computed) {
             return refused(format!("column {:?} of its table {name:?} is computed", column.name));
         }
-        if let Some(column) = needed.iter().find(|needed| !columns.iter().any(|column| column.name == **needed)) {
+        if let Some(column) =
+            needed.iter().find(|needed| !columns.iter().any(|column| column.name == **needed))
+        {
             return missing(format!("its table {name:?} has no column {column:?}"));
         }
         let mut keys = columns.iter().filter(|column| column.is_key);
@@ -173,7 +177,9 @@ fn immutable(path: &Path) -> String {
     }
     for byte in path.as_os_str().as_bytes() {
         match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'.' | b'-' | b'_' => address.push(char::from(*byte)),
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'.' | b'-' | b'_' => {
+                address.push(char::from(*byte))
+            }
             _ => address.push_str(&format!("%{byte:02X}")),
         }
     }

@@ -80,7 +80,9 @@ impl PageFile {
         // The format allows no less.
         let usable = if usable < 480 { page_size } else { usable };
         let count = u32::try_from(len.div_ceil(page_size as u64)).unwrap_or(u32::MAX);
-        let number = |at: usize| head.get(at..).and_then(|rest| rest.first_chunk()).copied().map_or(0, u32::from_be_bytes);
+        let number = |at: usize| {
+            head.get(at..).and_then(|rest| rest.first_chunk()).copied().map_or(0, u32::from_be_bytes)
+        };
         // The number of pages holds only when the change counter agrees with its copy.
         let promised = if has_head && number(24) == number(92) { number(28) } else { 0 };
         Ok(Self { file, page_size, usable, count, len, promised, has_magic: has_head })

@@ -4,7 +4,7 @@
 //! numbers, read from front to back; the index of times that rosbag2 keeps is not needed, and may be broken.
 
 use rusqlite::types::ValueRef;
-use rusqlite::{Statement, params};
+use rusqlite::{OptionalExtension, Statement, params};
 
 use super::compression;
 use super::database::Database;
@@ -36,10 +36,29 @@ pub(super) fn scan(database: &Database, collector: &mut Collector<'_>) -> Result
         None
     };
     let scanned = for_each_row(database, each);
-    match scanned.unwrap_or_else(|error| Some(error.to_string())) {
-        None => Ok(parts),
-        Some(reason) => Err(Stop { id: last.map_or(1, |last| last.saturating_add(1)), reason }),
+    if let Some(reason) = scanned.unwrap_or_else(|error| Some(error.to_string())) {
+        return Err(Stop { id: last.map_or(1, |last| last.saturating_add(1)), reason });
     }
+    match not_found(database, &parts) {
+        Ok(None) => Ok(parts),
+        Ok(Some(id)) => Err(Stop { id, reason: format!("message {id} is not where the table says") }),
+        Err(error) => Err(Stop { id: 1, reason: error.to_string() }),
+    }
+}
+
+/// The first block whose first row is not found by its number. Going through all rows follows the links from page to page;
+/// loading a block follows the numbers on the way there, which may be wrong all the same.
+fn not_found(database: &Database, parts: &[Ids]) -> rusqlite::Result<Option<i64>> {
+    let mut next =
+        database.prepare("SELECT id FROM messages NOT INDEXED WHERE id >= ?1 ORDER BY id LIMIT 1")?;
+    for (first, _) in parts {
+        database.renew();
+        let found: Option<i64> = next.query_row([first], |row| row.get(0)).optional()?;
+        if found != Some(*first) {
+            return Ok(Some(*first));
+        }
+    }
+    Ok(None)
 }
 
 /// Hands each row to `each` until that says why not to go on.

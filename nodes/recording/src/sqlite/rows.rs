@@ -74,8 +74,7 @@ impl Topics {
 
     pub(super) fn accept(&self, row: &Row) -> Result<Accepted, Refusal> {
         let channel = row.topic_id.and_then(|id| self.numbers.get(&id)).copied().ok_or(Refusal::Topic)?;
-        let log_time_ns =
-            row.timestamp.and_then(|time| u64::try_from(time).ok()).ok_or(Refusal::Time)?;
+        let log_time_ns = row.timestamp.and_then(|time| u64::try_from(time).ok()).ok_or(Refusal::Time)?;
         let size = row.data.ok_or(Refusal::Data)?;
         if size.in_memory > MAX_BLOCK_BYTES || size.stored > MAX_BLOCK_BYTES {
             return Err(Refusal::Size);
@@ -191,8 +190,49 @@ impl<'a> Collector<'a> {
             };
             let Row { id, .. } = first;
             let sentence = refusal.sentence();
-            (*id, format!("{count} messages that {sentence}; the first has id {id}{}", value.unwrap_or_default()))
+            (
+                *id,
+                format!(
+                    "messages that {sentence}: {count}, the first with id {id}{}",
+                    value.unwrap_or_default()
+                ),
+            )
         };
         self.refused.iter().map(sentence).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(id: i64, stored: u64) -> Row {
+        let data = Some(Size { stored, in_memory: stored });
+        Row { id, topic_id: Some(7), timestamp: Some(id), data }
+    }
+
+    #[test]
+    fn rows_that_share_their_pages_end_before_they_cost_more_than_their_file_can_hold() {
+        let topics = Topics::new([7].into_iter());
+        let mut index = FileIndex::default();
+        let len = 1_000_000;
+        let mut collector = Collector::new(&topics, &mut index, len);
+        let taken = (0..100_000).filter(|id| collector.take(&row(*id, 900_000)) != Taken::No).count();
+        assert_eq!(taken as u64, len * CLAIMS / 900_000);
+        let refused = collector.finish();
+        assert!(refused[0].1.contains("claim more bytes than the file has: 99983,"), "{refused:?}");
+    }
+
+    #[test]
+    fn a_block_ends_with_a_megabyte_and_a_large_message_is_a_block_of_its_own() {
+        let topics = Topics::new([7].into_iter());
+        let mut index = FileIndex::default();
+        let mut collector = Collector::new(&topics, &mut index, 1 << 30);
+        let sizes = [600_000, 400_000, 100_000, 5_000_000, 10];
+        let taken: Vec<_> = (0..).zip(sizes).map(|(id, size)| collector.take(&row(id, size))).collect();
+        assert_eq!(taken, [Taken::Same, Taken::Same, Taken::Next, Taken::Next, Taken::Next]);
+        collector.finish();
+        let bounds: Vec<_> = index.blocks.iter().map(|block| (block.start_ns, block.end_ns)).collect();
+        assert_eq!(bounds, [(0, 1), (2, 2), (3, 3), (4, 4)]);
     }
 }

@@ -10,7 +10,6 @@ use super::compression;
 use super::pages::{Cell, Page, PageFile, Value};
 use super::rows::{Collector, Row, Size, Taken};
 use super::schema::{TopicTexts, definition};
-use crate::MessageDefinition;
 use crate::topic::Topic;
 
 /// Rows with messages in the order of their numbers.
@@ -64,7 +63,8 @@ pub(super) fn search(file: &PageFile) -> Found {
         let Some(cells) = file.cells(&page) else { continue };
         let before = runs.len();
         for cell in cells.iter().filter(|cell| message(file, &page, cell).is_some()) {
-            match runs.last_mut().filter(|run| run.page == number && cell.id.checked_sub(1) == Some(run.last)) {
+            match runs.last_mut().filter(|run| run.page == number && cell.id.checked_sub(1) == Some(run.last))
+            {
                 Some(run) => run.last = cell.id,
                 None => runs.push(Run { page: number, first: cell.id, last: cell.id }),
             }
@@ -75,7 +75,9 @@ pub(super) fn search(file: &PageFile) -> Found {
         for cell in &cells {
             match texts(file, &page, cell) {
                 Some(texts) if texts.name.starts_with('/') => topics.push((cell.id, texts)),
-                Some(TopicTexts { name: type_name, type_name: encoding, format: text, qos: hash, .. }) => {
+                Some(TopicTexts {
+                    name: type_name, type_name: encoding, format: text, qos: hash, ..
+                }) => {
                     definitions.insert(type_name, definition(encoding, text, hash));
                 }
                 None => {}
@@ -187,11 +189,13 @@ fn message(file: &PageFile, page: &Page, cell: &Cell) -> Option<Row> {
 /// The row, if it has the shape of a message: id (stored as nothing), topic, time, data. Also where the data begin.
 fn message_with_place(file: &PageFile, page: &Page, cell: &Cell) -> Option<(Row, u64)> {
     let values = PageFile::values(page, cell, 4)?;
-    let [Value::Null, Value::Integer(topic_id), Value::Integer(timestamp), Value::Blob(stored, place)] = values[..]
+    let [Value::Null, Value::Integer(topic_id), Value::Integer(timestamp), Value::Blob(stored, place)] =
+        values[..]
     else {
         return None;
     };
-    let head = file.read(page, cell, place..place.saturating_add(compression::HEAD as u64)).unwrap_or_default();
+    let head =
+        file.read(page, cell, place..place.saturating_add(compression::HEAD as u64)).unwrap_or_default();
     let data = Some(Size { stored, in_memory: compression::size_in_memory(&head, stored) });
     Some((Row { id: cell.id, topic_id: Some(topic_id), timestamp: Some(timestamp), data }, place))
 }

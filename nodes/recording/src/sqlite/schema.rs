@@ -68,8 +68,9 @@ pub(super) fn read(database: &Database) -> rusqlite::Result<Result<Schema, Unfit
     });
     let or_nothing = |column| if table.has(column) { column } else { "''" };
     let (qos, hash) = (or_nothing("offered_qos_profiles"), or_nothing("type_description_hash"));
-    let sql =
-        format!("SELECT id, name, type, serialization_format, {qos}, {hash} FROM topics NOT INDEXED ORDER BY id");
+    let sql = format!(
+        "SELECT id, name, type, serialization_format, {qos}, {hash} FROM topics NOT INDEXED ORDER BY id"
+    );
     let mut statement = database.prepare(&sql)?;
     let mut rows = statement.query([])?;
     let mut last = None;
