@@ -1,10 +1,11 @@
-//! `metadata.yaml` of a rosbag2 directory: versions 1 to 9 are read, 9 is written.
+//! `metadata.yaml` of a rosbag2 directory: versions 1 to 9 are read, 9 and 5 are written.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use serde_yaml::Value;
 
 use crate::error::Error;
 use crate::qos::{self, Qos};
@@ -12,14 +13,16 @@ use crate::reader::Recording;
 
 /// The file's name in the directory of a recording.
 pub(crate) const FILE_NAME: &str = "metadata.yaml";
-/// The version this crate writes: ROS 2 Jazzy.
-const VERSION: u32 = 9;
+/// ROS 2 Jazzy and later.
+pub(crate) const NEWEST: u32 = 9;
+/// ROS 2 Humble.
+pub(crate) const HUMBLE: u32 = 5;
 /// A file with thousands of topics has some megabytes.
 const LARGEST_BYTES: u64 = 16 << 20;
 /// What rosbag2 writes as the start of a recording without messages.
 const NO_START_NS: u64 = i64::MAX as u64;
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Deserialize)]
 struct Root {
     rosbag2_bagfile_information: Metadata,
 }
@@ -41,7 +44,7 @@ pub(crate) struct Metadata {
     #[serde(default)]
     pub(crate) files: Vec<FileInformation>,
     #[serde(default)]
-    pub(crate) custom_data: Option<serde_yaml::Value>,
+    pub(crate) custom_data: Option<Value>,
     #[serde(default)]
     pub(crate) ros_distro: String,
 }
@@ -89,13 +92,14 @@ impl Metadata {
         bounds_ns: Option<(u64, u64)>,
         topics: Vec<TopicWithCount>,
         ros_distro: &str,
+        version: u32,
     ) -> Self {
         let (start, end) = bounds_ns.unwrap_or((NO_START_NS, NO_START_NS));
         let duration = Nanoseconds { nanoseconds: end.saturating_sub(start) };
         let starting_time = SinceEpoch { nanoseconds_since_epoch: start };
         let message_count = topics.iter().map(|topic| topic.message_count).sum();
         Self {
-            version: VERSION,
+            version,
             storage_identifier: "mcap".to_owned(),
             duration: duration.clone(),
             starting_time: starting_time.clone(),
@@ -117,14 +121,36 @@ impl Metadata {
 
     /// The YAML without the outermost key, as the MCAP metadata record `rosbag2` carries it.
     pub(crate) fn to_yaml(&self, path: &Path) -> Result<String, Error> {
-        serde_yaml::to_string(self).map_err(invalid(path))
+        self.to_value().and_then(|value| serde_yaml::to_string(&value)).map_err(invalid(path))
+    }
+
+    /// The keys of its version.
+    fn to_value(&self) -> Result<Value, serde_yaml::Error> {
+        let mut value = serde_yaml::to_value(self)?;
+        if self.version >= NEWEST {
+            return Ok(value);
+        }
+        let Some(keys) = value.as_mapping_mut() else { return Ok(value) };
+        keys.remove("custom_data");
+        keys.remove("ros_distro");
+        let topics = keys.get_mut("topics_with_message_count").and_then(Value::as_sequence_mut);
+        for (written, topic) in topics.into_iter().flatten().zip(&self.topics_with_message_count) {
+            if let Some(keys) = written.get_mut("topic_metadata").and_then(Value::as_mapping_mut) {
+                keys.remove("type_description_hash");
+                let text = qos::to_yaml_of_numbers(&topic.topic_metadata.offered_qos_profiles)?;
+                keys.insert("offered_qos_profiles".into(), text.into());
+            }
+        }
+        Ok(value)
     }
 
     /// Writes the file in one step: a reader finds the old one or the new one, never a part.
     pub(crate) fn save(&self, directory: &Path) -> Result<(), Error> {
         let path = directory.join(FILE_NAME);
-        let text = serde_yaml::to_string(&Root { rosbag2_bagfile_information: self.clone() })
-            .map_err(invalid(&path))?;
+        let root = self.to_value().and_then(|value| {
+            serde_yaml::to_string(&BTreeMap::from([("rosbag2_bagfile_information", value)]))
+        });
+        let text = root.map_err(invalid(&path))?;
         let unfinished = directory.join(".metadata.yaml.part");
         std::fs::write(&unfinished, text).map_err(Error::io(&unfinished, "write"))?;
         std::fs::rename(&unfinished, &path).map_err(Error::io(&path, "write"))
@@ -151,10 +177,10 @@ impl Metadata {
     pub(crate) fn parse(bytes: &[u8], path: &Path) -> Result<Self, Error> {
         let root: Root = serde_yaml::from_slice(bytes).map_err(invalid(path))?;
         let metadata = root.rosbag2_bagfile_information;
-        if (1..=VERSION).contains(&metadata.version) {
+        if (1..=NEWEST).contains(&metadata.version) {
             Ok(metadata)
         } else {
-            let reason = format!("version is {}, accepted: 1 to {VERSION}", metadata.version);
+            let reason = format!("version is {}, accepted: 1 to {NEWEST}", metadata.version);
             Err(Error::Metadata { path: path.to_owned(), reason })
         }
     }
@@ -215,6 +241,17 @@ fn invalid(path: &Path) -> impl FnOnce(serde_yaml::Error) -> Error {
 mod tests {
     use super::*;
 
+    #[test]
+    fn version_5_is_written_with_the_keys_of_humble() {
+        let metadata = Metadata::parse(HUMBLE.as_bytes(), Path::new("metadata.yaml")).unwrap();
+        let directory = tempfile::tempdir().unwrap();
+        metadata.save(directory.path()).unwrap();
+        let text = std::fs::read_to_string(directory.path().join(FILE_NAME)).unwrap();
+        let (again, before): (Value, Value) =
+            (serde_yaml::from_str(&text).unwrap(), serde_yaml::from_str(HUMBLE).unwrap());
+        assert_eq!(again, before, "{text}");
+    }
+
     /// Humble: version 5, QoS as a text with numbers, no hash, no custom data, no distribution.
     const HUMBLE: &str = r#"rosbag2_bagfile_information:
   version: 5
@@ -262,7 +299,7 @@ mod tests {
     #[test]
     fn what_is_saved_reads_back_and_leaves_no_other_file() {
         let directory = tempfile::tempdir().unwrap();
-        let metadata = Metadata::of_one_file("a_0.mcap", Some((5, 9)), Vec::new(), "jazzy");
+        let metadata = Metadata::of_one_file("a_0.mcap", Some((5, 9)), Vec::new(), "jazzy", NEWEST);
         metadata.save(directory.path()).unwrap();
         let again = Metadata::load(directory.path()).unwrap().unwrap();
         assert_eq!((again.version, again.duration.nanoseconds, again.ros_distro.as_str()), (9, 4, "jazzy"));

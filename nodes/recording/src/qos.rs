@@ -9,6 +9,13 @@ macro_rules! policy {
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
         pub enum $name { $($(#[$variant_doc])* #[serde(rename = $word)] $variant),+ }
 
+        impl $name {
+            /// The number of `rmw`, as metadata before version 9 has it.
+            fn number(self) -> i64 {
+                match self { $(Self::$variant => $number),+ }
+            }
+        }
+
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 Ok(match WordOrNumber::deserialize(deserializer)? {
@@ -148,6 +155,34 @@ pub(crate) fn to_yaml(profiles: &[Qos]) -> Result<String, serde_yaml::Error> {
     serde_yaml::to_string(profiles).map(|text| text.trim_end().to_owned())
 }
 
+/// The same for metadata before version 9: numbers in place of the words.
+pub(crate) fn to_yaml_of_numbers(profiles: &[Qos]) -> Result<String, serde_yaml::Error> {
+    #[derive(Serialize)]
+    struct Numbers {
+        history: i64,
+        depth: u64,
+        reliability: i64,
+        durability: i64,
+        deadline: QosTime,
+        lifespan: QosTime,
+        liveliness: i64,
+        liveliness_lease_duration: QosTime,
+        avoid_ros_namespace_conventions: bool,
+    }
+    let numbers = profiles.iter().map(|qos| Numbers {
+        history: qos.history.number(),
+        depth: qos.depth,
+        reliability: qos.reliability.number(),
+        durability: qos.durability.number(),
+        deadline: qos.deadline,
+        lifespan: qos.lifespan,
+        liveliness: qos.liveliness.number(),
+        liveliness_lease_duration: qos.liveliness_lease_duration,
+        avoid_ros_namespace_conventions: qos.avoid_ros_namespace_conventions,
+    });
+    serde_yaml::to_string(&numbers.collect::<Vec<_>>()).map(|text| text.trim_end().to_owned())
+}
+
 /// The inverse of [`to_yaml`] for every metadata version; an empty text is an empty list.
 pub(crate) fn from_yaml(text: &str) -> Result<Vec<Qos>, serde_yaml::Error> {
     if text.trim().is_empty() { Ok(Vec::new()) } else { serde_yaml::from_str(text) }
@@ -187,6 +222,9 @@ mod tests {
         assert_eq!(old[0].history, History::Unknown);
         assert_eq!(from_yaml(&to_yaml(&old).unwrap()).unwrap(), old);
         assert!(to_yaml(&old).unwrap().contains("durability: transient_local"));
+        let numbers = to_yaml_of_numbers(&old).unwrap();
+        assert!(numbers.contains("durability: 1") && numbers.contains("history: 3"), "{numbers}");
+        assert_eq!(from_yaml(&numbers).unwrap(), old);
     }
 
     #[test]

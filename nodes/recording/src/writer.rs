@@ -1,4 +1,4 @@
-//! Writes recordings as rosbag2 does: uncompressed MCAP in chunks, `metadata.yaml` of version 9.
+//! Writes recordings as rosbag2 does: uncompressed MCAP in chunks, `metadata.yaml` of version 9 or 5.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -9,7 +9,7 @@ use mcap::records::MessageHeader;
 use mcap::write::NoSeek;
 
 use crate::error::Error;
-use crate::metadata::{Metadata, TopicMetadata, TopicWithCount};
+use crate::metadata::{self, Metadata, TopicMetadata, TopicWithCount};
 use crate::qos;
 use crate::reader::MessageRef;
 use crate::topic::Topic;
@@ -29,11 +29,27 @@ pub struct Writer {
     file_path: PathBuf,
     file_name: String,
     ros_distro: String,
+    metadata_version: u32,
     topics: Vec<Channel>,
     /// First and last log time, ns.
     bounds_ns: Option<(u64, u64)>,
     /// Log time of the first message since the last flush.
     unflushed_since_ns: Option<u64>,
+}
+
+/// How a recording is written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WriterOptions {
+    /// Noted in the metadata; empty: not known.
+    pub ros_distro: String,
+    /// Version of `metadata.yaml`: 9 (ROS 2 Jazzy) or 5 (Humble, which reads nothing newer).
+    pub metadata_version: u32,
+}
+
+impl Default for WriterOptions {
+    fn default() -> Self {
+        Self { ros_distro: String::new(), metadata_version: metadata::NEWEST }
+    }
 }
 
 /// A topic of a [`Writer`].
@@ -62,7 +78,21 @@ impl Writer {
     /// # Errors
     /// When the directory exists or cannot be made.
     pub fn create(directory: impl AsRef<Path>, ros_distro: &str) -> Result<Self, Error> {
+        let options = WriterOptions { ros_distro: ros_distro.to_owned(), ..WriterOptions::default() };
+        Self::create_with(directory, options)
+    }
+
+    /// The same with all options.
+    ///
+    /// # Errors
+    /// When the directory exists or cannot be made, or an option has another value than those that are accepted.
+    pub fn create_with(directory: impl AsRef<Path>, options: WriterOptions) -> Result<Self, Error> {
+        let WriterOptions { ros_distro, metadata_version } = options;
         let directory = directory.as_ref();
+        if ![metadata::NEWEST, metadata::HUMBLE].contains(&metadata_version) {
+            let reason = format!("version {metadata_version} is not written, accepted: 9, 5");
+            return Err(Error::Metadata { path: directory.join(metadata::FILE_NAME), reason });
+        }
         let name = directory.file_name().ok_or_else(|| Error::NotARecording {
             path: directory.to_owned(),
             reason: "the path has no name at its end".to_owned(),
@@ -91,7 +121,8 @@ impl Writer {
             directory: directory.to_owned(),
             file_path,
             file_name,
-            ros_distro: ros_distro.to_owned(),
+            ros_distro,
+            metadata_version,
             topics: Vec::new(),
             bounds_ns: None,
             unflushed_since_ns: None,
@@ -117,7 +148,9 @@ impl Writer {
         }
         let definition = &topic.definition;
         let failed = Error::write(&self.file_path);
-        let qos_text = qos::to_yaml(&topic.offered_qos)
+        let to_yaml =
+            if self.metadata_version >= metadata::NEWEST { qos::to_yaml } else { qos::to_yaml_of_numbers };
+        let qos_text = to_yaml(&topic.offered_qos)
             .map_err(|error| Error::Metadata { path: self.file_path.clone(), reason: error.to_string() })?;
         let metadata = BTreeMap::from([
             ("offered_qos_profiles".to_owned(), qos_text),
@@ -227,6 +260,12 @@ impl Writer {
             },
             message_count: *message_count,
         });
-        Metadata::of_one_file(&self.file_name, self.bounds_ns, topics.collect(), &self.ros_distro)
+        Metadata::of_one_file(
+            &self.file_name,
+            self.bounds_ns,
+            topics.collect(),
+            &self.ros_distro,
+            self.metadata_version,
+        )
     }
 }

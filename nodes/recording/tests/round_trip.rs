@@ -7,7 +7,7 @@ use common::*;
 use proptest::prelude::*;
 use recording::cdr::{decode, encode};
 use recording::messages::PoseStamped;
-use recording::{Durability, Error, Qos, Recording, Writer};
+use recording::{Durability, Error, Qos, Recording, Writer, WriterOptions};
 
 #[test]
 fn every_message_comes_back_in_order_over_many_chunks() {
@@ -75,6 +75,28 @@ fn equal_times_keep_the_order_in_which_they_were_stored_and_late_ones_are_sorted
         let stored: Vec<_> = equal.iter().map(|message| (message.sequence, message.topic)).collect();
         assert!(stored.is_sorted(), "{stored:?}");
     }
+}
+
+#[test]
+fn metadata_of_humble_is_written_on_request_and_no_other_version() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    let with = |metadata_version| WriterOptions { metadata_version, ..WriterOptions::default() };
+    let mut writer = Writer::create_with(&path, with(5)).unwrap();
+    let topic = writer.add_topic(topic("/pose")).unwrap();
+    write(&mut writer, topic, 0..10);
+    writer.close().unwrap();
+    let text = std::fs::read_to_string(path.join("metadata.yaml")).unwrap();
+    assert!(text.contains("version: 5") && text.contains("reliability: 1"), "{text}");
+    for newer in ["custom_data", "ros_distro", "type_description_hash", "reliable"] {
+        assert!(!text.contains(newer), "{text}");
+    }
+    let recording = Recording::open(&path).unwrap();
+    assert_eq!((read(&recording).0.len(), recording.metadata_disagreements()), (10, &[][..]));
+    assert_eq!(recording.topics()[0].topic.offered_qos, [Qos::default()]);
+    let refused = Writer::create_with(directory.path().join("other"), with(7)).err().unwrap().to_string();
+    assert!(refused.contains("version 7") && refused.contains("9, 5"), "{refused}");
+    assert!(!directory.path().join("other").exists());
 }
 
 #[test]
