@@ -256,15 +256,15 @@ def largest_step_n(lines):
 
 
 def largest_commanded_step_n(lines):
-    """The largest step, by the periods since the device heard something before. What the device does by itself is no step of
-    the driver's; and a line that was held up keeps the newest command only, which may be as far from the last one that came
-    as those in between would have brought it."""
+    """The largest step from one command of the driver to the next. What the device does by itself is no step of the driver's. A
+    line that was held up keeps the newest command only, which may be as far from the last one that came as those in between
+    would have brought it: a device that numbers commands knows how many they were, others only the time that went by."""
     largest_n, earlier_ns = 0.0, None
     for before, line in zip(lines, lines[1:]):
         if line.t_ns > before.t_ns:
             earlier_ns = before.t_ns
         if line.event == "command" and earlier_ns is not None:
-            periods = max(1, round((line.t_ns - earlier_ns) / PERIOD_NS))
+            periods = max(line.commands - before.commands, round((line.t_ns - earlier_ns) / PERIOD_NS))
             largest_n = max(largest_n, change_n(before, line) / periods)
     return largest_n
 

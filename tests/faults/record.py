@@ -13,6 +13,7 @@ class Line:
     force: tuple  # N
     torque: tuple  # N m
     grip_n: float
+    commands: int  # that the driver has made so far, as far as the device can tell
 
     @property
     def size_n(self):
@@ -24,9 +25,9 @@ class Line:
 
 
 def parse(text):
-    t_ns, event, *numbers = text.split(",")
+    t_ns, event, *numbers, commands = text.split(",")
     numbers = tuple(float(number) for number in numbers)
-    return Line(int(t_ns), event, numbers[:3], numbers[3:6], numbers[6])
+    return Line(int(t_ns), event, numbers[:3], numbers[3:6], numbers[6], int(commands))
 
 
 def change_n(before, after):

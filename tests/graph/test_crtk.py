@@ -302,7 +302,7 @@ def test_a_second_publisher_of_a_command_takes_the_force_away_until_it_leaves(st
     client.engage(handle)
     client.until((1.0, 0.0, 0.0), acts, "the force again")
     assert driver.interrupt()[0] == 0
-    assert driver.closing_report()["contested"] > 10
+    assert driver.closing_report()["contested"] > 0, "commands that were refused"
 
 
 def test_a_client_that_begins_beside_another_gets_no_force_at_all(start, peer, other):

@@ -15,12 +15,14 @@ pub struct Motors {
     on: bool,
     held: Wrench,
     commanded_ns: u64,
+    /// That the driver made, as far as the device can tell.
+    commands: u64,
 }
 
 impl Motors {
     /// Motors that are off. Without a watchdog they hold the last command for ever.
     pub fn new(watchdog: Option<Duration>, record: Record) -> Motors {
-        let mut motors = Motors { watchdog_ns: None, record, on: false, held: Wrench::ZERO, commanded_ns: 0 };
+        let mut motors = Motors { watchdog_ns: None, record, on: false, held: Wrench::ZERO, commanded_ns: 0, commands: 0 };
         motors.set_watchdog(watchdog);
         motors
     }
@@ -36,7 +38,7 @@ impl Motors {
     /// The record cannot be written.
     pub fn enable(&mut self, now_ns: u64) -> io::Result<()> {
         (self.on, self.held, self.commanded_ns) = (true, Wrench::ZERO, now_ns);
-        self.record.write(now_ns, Event::Enable, &Wrench::ZERO)
+        self.record.write(now_ns, Event::Enable, &Wrench::ZERO, self.commands)
     }
 
     /// Motors off, and why.
@@ -45,7 +47,7 @@ impl Motors {
     /// The record cannot be written.
     pub fn off(&mut self, now_ns: u64, event: Event) -> io::Result<()> {
         (self.on, self.held) = (false, Wrench::ZERO);
-        self.record.write(now_ns, event, &Wrench::ZERO)
+        self.record.write(now_ns, event, &Wrench::ZERO, self.commands)
     }
 
     /// A command. Motors that are off take it and do nothing.
@@ -55,10 +57,16 @@ impl Motors {
     pub fn command(&mut self, now_ns: u64, wrench: Wrench) -> io::Result<()> {
         self.update(now_ns)?;
         self.commanded_ns = now_ns;
+        self.commands += 1;
         if self.on {
             self.held = wrench;
         }
-        self.record.write(now_ns, Event::Command, &self.held)
+        self.record.write(now_ns, Event::Command, &self.held, self.commands)
+    }
+
+    /// So many commands were made and never came.
+    pub fn missed(&mut self, commands: u64) {
+        self.commands += commands;
     }
 
     /// Whether they are on.

@@ -36,7 +36,7 @@ impl Event {
     }
 }
 
-/// A CSV file `t_ns,event,fx,fy,fz,tx,ty,tz,grip`, or nothing. Times are [`monotonic_ns`](crate::monotonic_ns); forces and
+/// A CSV file `t_ns,event,fx,fy,fz,tx,ty,tz,grip,commands`, or nothing. Times are [`monotonic_ns`](crate::monotonic_ns); forces and
 /// torques are those the motors give from then on.
 #[derive(Debug)]
 pub struct Record {
@@ -51,7 +51,7 @@ impl Record {
     pub fn create(path: Option<&Path>) -> io::Result<Record> {
         let mut file = path.map(File::create).transpose()?;
         if let Some(file) = &mut file {
-            file.write_all(b"t_ns,event,fx,fy,fz,tx,ty,tz,grip\n")?;
+            file.write_all(b"t_ns,event,fx,fy,fz,tx,ty,tz,grip,commands\n")?;
         }
         Ok(Record { file })
     }
@@ -60,11 +60,11 @@ impl Record {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn write(&mut self, t_ns: u64, event: Event, wrench: &Wrench) -> io::Result<()> {
+    pub fn write(&mut self, t_ns: u64, event: Event, wrench: &Wrench, commands: u64) -> io::Result<()> {
         let Some(file) = &mut self.file else { return Ok(()) };
         let (f, t) = (wrench.force_n, wrench.torque_n_m);
         let line = format!(
-            "{t_ns},{},{},{},{},{},{},{},{}\n",
+            "{t_ns},{},{},{},{},{},{},{},{},{commands}\n",
             event.word(),
             f.x,
             f.y,

@@ -162,6 +162,7 @@ impl Firmware {
         if let Some((last, _)) = &self.command {
             let gap = command.sequence.wrapping_sub(last.sequence).wrapping_sub(1);
             self.lost_commands = self.lost_commands.wrapping_add(gap as u8);
+            self.motors.missed(u64::from(gap));
         }
         let was = self.command.map_or(0, |(last, _)| last.flags);
         self.command = Some((command, now_ns));
