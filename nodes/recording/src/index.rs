@@ -23,6 +23,10 @@ use crate::topic::{RecordedTopic, Topic};
 const ROW_BYTES: u64 = 1 << 20;
 /// Broken places that are told one by one.
 const TOLD: usize = 1000;
+/// Longest text of a quality of service. One publisher has 300 bytes, and reading YAML takes fifty times its size.
+const QOS_BYTES: usize = 1 << 18;
+/// What the definitions of all topics may take. A type has a few kB, and each of its topics has its own copy.
+const DEFINITIONS_BYTES: usize = 32 << 20;
 
 /// Finds what is in `file`. Its chunks may decompress to `allowance` bytes altogether.
 ///
@@ -199,7 +203,13 @@ impl<'a> Walk<'a> {
             return Ok(end);
         }
         let is_plain = chunk.compression.is_empty();
-        if is_plain && chunk.records.end - chunk.records.start > MAX_BLOCK_BYTES {
+        let stored = chunk.records.end - chunk.records.start;
+        if is_plain && chunk.size != stored {
+            let reason =
+                format!("a chunk of {stored} bytes without compression that says it has {}", chunk.size);
+            self.note(self.damaged(offset, reason));
+        }
+        if is_plain && stored > MAX_BLOCK_BYTES {
             // Too large for one block: its records are taken one by one as if there were no chunk.
             return Ok(chunk.records.start);
         }
@@ -348,25 +358,42 @@ impl<'a> Walk<'a> {
             self.damage.push(more);
         }
         let Definitions { schemas, channels } = &self.definitions;
+        let mut left = DEFINITIONS_BYTES;
+        let mut too_long = 0_u64;
         let topics = channels.iter().map(|(id, channel)| {
             let schema = schemas.get(&channel.schema_id);
-            let text_of = |key: &str| channel.metadata.get(key).cloned().unwrap_or_default();
+            let text_of = |key: &str| channel.metadata.get(key).map_or("", String::as_str);
+            let text = schema.map_or("", |schema| &schema.text);
+            let fits = left.checked_sub(text.len());
+            left = fits.unwrap_or(left);
+            too_long += u64::from(fits.is_none());
+            let qos_text = text_of("offered_qos_profiles");
             let topic = Topic {
                 name: channel.topic.clone(),
                 type_name: schema.map(|schema| schema.name.clone()).unwrap_or_default(),
                 serialization_format: channel.message_encoding.clone(),
                 // A QoS nobody can read is one that is not known.
-                offered_qos: qos::from_yaml(&text_of("offered_qos_profiles")).unwrap_or_default(),
+                offered_qos: match qos_text.len() <= QOS_BYTES {
+                    true => qos::from_yaml(qos_text).unwrap_or_default(),
+                    false => Vec::new(),
+                },
                 definition: MessageDefinition {
                     encoding: schema.map(|schema| schema.encoding.clone()).unwrap_or_default(),
-                    text: schema.map(|schema| schema.text.clone()).unwrap_or_default(),
-                    type_hash: text_of("topic_type_hash"),
+                    text: fits.map(|_| text.to_owned()).unwrap_or_default(),
+                    type_hash: text_of("topic_type_hash").to_owned(),
                 },
             };
             let message_count = self.counts.get(id).copied().unwrap_or(0);
             (u32::from(*id), RecordedTopic { topic, message_count })
         });
-        FileIndex { topics: topics.collect(), blocks: self.blocks, damage: self.damage }
+        let topics = topics.collect();
+        if too_long > 0 {
+            let reason = format!(
+                "definitions of more than {DEFINITIONS_BYTES} bytes altogether; those of {too_long} topics are left out"
+            );
+            self.damage.push(Error::damaged(self.file.path(), self.file.len(), reason));
+        }
+        FileIndex { topics, blocks: self.blocks, damage: self.damage }
     }
 }
 
