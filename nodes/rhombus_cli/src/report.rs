@@ -22,7 +22,6 @@ mod stability_map;
 mod staging;
 mod subject;
 mod table;
-mod ticks;
 mod truth;
 
 use std::collections::BTreeMap;

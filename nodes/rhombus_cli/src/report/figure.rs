@@ -1,5 +1,7 @@
 //! What a figure shows; how it is drawn is `plot`'s business.
 
+pub(crate) use rhombus_cli::drawing::Axis;
+
 use super::table::{Cell, Table};
 
 /// Series over two axes.
@@ -11,26 +13,6 @@ pub(crate) struct Figure {
     pub(crate) y: Axis,
     /// What is drawn, in the order of the legend.
     pub(crate) series: Vec<Series>,
-}
-
-/// An axis.
-#[derive(Clone, Debug)]
-pub(crate) struct Axis {
-    /// Quantity and unit: `force [N]`.
-    pub(crate) label: String,
-    /// Linear or logarithmic. Points at or below zero are not drawn on a logarithmic axis; the page says how many.
-    pub(crate) scale: Scale,
-    /// Drawn range; by default what the points need.
-    pub(crate) range: Option<(f64, f64)>,
-}
-
-/// How an axis is divided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Scale {
-    /// Equal steps.
-    Linear,
-    /// Equal factors.
-    Log,
 }
 
 /// One entry of the legend.
@@ -91,23 +73,6 @@ pub(crate) enum Marker {
     Tile(u32),
 }
 
-impl Axis {
-    /// A linear axis.
-    pub(crate) fn linear(label: &str) -> Self {
-        Self { label: label.to_owned(), scale: Scale::Linear, range: None }
-    }
-
-    /// A logarithmic axis.
-    pub(crate) fn log(label: &str) -> Self {
-        Self { label: label.to_owned(), scale: Scale::Log, range: None }
-    }
-
-    /// With a fixed range.
-    pub(crate) fn within(self, low: f64, high: f64) -> Self {
-        Self { range: Some((low, high)), ..self }
-    }
-}
-
 impl Point {
     /// A point without spread.
     pub(crate) fn new(x: f64, y: f64) -> Self {
@@ -164,11 +129,5 @@ impl Figure {
     /// Whether a point has a place on the axes.
     pub(crate) fn draws(&self, point: &Point) -> bool {
         self.x.scale.has(point.x) && self.y.scale.has(point.y)
-    }
-}
-
-impl Scale {
-    fn has(self, value: f64) -> bool {
-        value.is_finite() && (self == Scale::Linear || value > 0.0)
     }
 }

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use rhombus_cli::markup::xml as escaped;
+
 use super::page::{Chapter, Page, ROWS_IN_SIGHT};
 use super::section::{Exhibit, Outcome};
 use super::table::{Cell, Table};
@@ -144,10 +146,6 @@ fn table(table: &Table) -> String {
     }
     text.push_str("</table></div>\n");
     text
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Writing to a string cannot fail.

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use rhombus_cli::markup::markdown as escaped;
+
 use super::page::{Chapter, Page, ROWS_IN_SIGHT};
 use super::section::Exhibit;
 use super::table::Table;
@@ -73,19 +75,6 @@ fn table_text(text: &mut String, table: &Table) {
         let cells: Vec<String> = row.iter().map(|cell| escaped(&cell.shown())).collect();
         push(text, format_args!("| {} |\n", cells.join(" | ")));
     }
-}
-
-/// Nothing in a text is taken for a table's line or for emphasis.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '\n' | '\r' => escaped.push(' '),
-            '|' | '*' | '_' | '`' | '[' | ']' | '<' | '\\' => escaped.extend(['\\', character]),
-            other => escaped.push(other),
-        }
-    }
-    escaped
 }
 
 /// Writing to a string cannot fail.

@@ -3,42 +3,15 @@
 //! An SVG file stands on a white ground. In the page, style.css gives ink, ground and grid the colours of the reader's scheme:
 //! they are the only things drawn in these three colours.
 
-use anyhow::{Result, anyhow};
-use plotters::coord::Shift;
+use anyhow::Result;
 use plotters::element::{Drawable, PointCollection};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters_backend::{BackendCoord, DrawingErrorKind};
+use rhombus_cli::drawing::{self, Area, DrawingError, FINE, GRID, INK, PALETTE, Ticks};
 
 use super::figure::{Figure, Line, Marker, Point, Series};
-use super::ticks::Ticks;
 
-/// Text and axes.
-const INK: RGBColor = RGBColor(0x22, 0x26, 0x2b);
-/// Grid lines.
-const GRID: RGBColor = RGBColor(0xdf, 0xe3, 0xe8);
-/// Behind everything.
-const GROUND: RGBColor = RGBColor(0xff, 0xff, 0xff);
-/// Readable on white and on near black, and apart for colour-blind eyes (after Okabe and Ito).
-const PALETTE: [RGBColor; 14] = [
-    RGBColor(0x1f, 0x7a, 0xc4),
-    RGBColor(0xd5, 0x5e, 0x00),
-    RGBColor(0x0b, 0x9e, 0x73),
-    RGBColor(0xc8, 0x5f, 0xa0),
-    RGBColor(0xdd, 0x99, 0x00),
-    RGBColor(0x84, 0x6f, 0xd6),
-    RGBColor(0x4f, 0xb0, 0xd8),
-    RGBColor(0x8a, 0x8f, 0x96),
-    RGBColor(0xa8, 0x6a, 0x2e),
-    RGBColor(0x94, 0xb0, 0x2a),
-    RGBColor(0xd8, 0x4a, 0x4a),
-    RGBColor(0x2f, 0x94, 0x9a),
-    RGBColor(0xa9, 0x52, 0xc4),
-    RGBColor(0x6b, 0x7d, 0x3a),
-];
-
-/// plotters places everything on whole pixels: it is given this many for each pixel of the drawing.
-const FINE: u32 = 4;
 const WIDTH: u32 = 800;
 const PLOT_HEIGHT: u32 = 440;
 const LEGEND_LINE: u32 = 22;
@@ -46,9 +19,7 @@ const LEGEND_COLUMNS: u32 = 2;
 const TEXT: u32 = 15;
 const LINE: u32 = 2 * FINE;
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ticks, Ticks>>;
-type DrawingError = DrawingAreaErrorKind<std::io::Error>;
 
 /// The figure as a whole SVG document.
 ///
@@ -57,20 +28,11 @@ type DrawingError = DrawingAreaErrorKind<std::io::Error>;
 pub(crate) fn svg(figure: &Figure) -> Result<String> {
     let shown: Vec<&Series> = figure.series.iter().filter(|series| !series.name.is_empty()).collect();
     let height = PLOT_HEIGHT + (shown.len() as u32).div_ceil(LEGEND_COLUMNS) * LEGEND_LINE + 8;
-    let mut text = String::new();
-    let drawn = draw(&mut text, height, figure, &shown);
-    drawn.map_err(|error| anyhow!("the figure cannot be drawn: {error}"))?;
-    let size = |width, height| format!("width=\"{width}\" height=\"{height}\"");
-    Ok(text.replacen(&size(FINE * WIDTH, FINE * height), &size(WIDTH, height), 1))
-}
-
-fn draw(text: &mut String, height: u32, figure: &Figure, shown: &[&Series]) -> Result<(), DrawingError> {
-    let root = SVGBackend::with_string(text, (FINE * WIDTH, FINE * height)).into_drawing_area();
-    root.fill(&GROUND)?;
-    let (plot, legend) = root.split_vertically(FINE * PLOT_HEIGHT);
-    draw_plot(&plot, figure)?;
-    draw_legend(&legend, shown)?;
-    root.present()
+    drawing::svg(WIDTH, height, |root| {
+        let (plot, legend) = root.split_vertically(FINE * PLOT_HEIGHT);
+        draw_plot(&plot, figure)?;
+        draw_legend(&legend, &shown)
+    })
 }
 
 fn draw_plot(area: &Area, figure: &Figure) -> Result<(), DrawingError> {

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
-use super::figure::{Axis, Scale};
+use super::axis::{Axis, Scale};
 
 /// The drawn range of an axis and its divisions. Places are the values, or their decimal logarithms.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Ticks {
+pub struct Ticks {
     scale: Scale,
     /// Places of the ends.
     range: (f64, f64),
@@ -18,21 +18,21 @@ pub(crate) struct Ticks {
 
 impl Ticks {
     /// For the values that are to be drawn on `axis`.
-    pub(crate) fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
+    pub fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
         let scale = axis.scale;
         let range = match axis.range {
             Some((low, high)) => (scale.place(low), scale.place(high)),
             None => padded(values.map(|value| scale.place(value)).filter(|place| place.is_finite())),
         };
         let divisions = match scale {
-            Scale::Linear => linear(range),
+            Scale::Linear => linear(range, axis.divisions),
             Scale::Log => logarithmic(range),
         };
         Self { scale, range, divisions }
     }
 
     /// Whether a value lies in the drawn range.
-    pub(crate) fn shows(&self, value: f64) -> bool {
+    pub fn shows(&self, value: f64) -> bool {
         (self.range.0..=self.range.1).contains(&self.scale.place(value))
     }
 }
@@ -94,9 +94,9 @@ fn padded(places: impl Iterator<Item = f64>) -> (f64, f64) {
     (low - margin, high + margin)
 }
 
-/// Five to ten divisions in steps of 1, 2 or 5 times a power of ten.
-fn linear((low, high): (f64, f64)) -> Vec<(f64, String)> {
-    let rough = (high - low) / 8.0;
+/// About so many divisions, from 0.6 to 1.3 times as many, in steps of 1, 2 or 5 times a power of ten.
+fn linear((low, high): (f64, f64), divisions: f64) -> Vec<(f64, String)> {
+    let rough = (high - low) / divisions;
     let decade = rough.log10().floor();
     let power = 10_f64.powi(decade as i32);
     let (factor, extra) = match rough / power {
