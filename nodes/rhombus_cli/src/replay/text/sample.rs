@@ -22,7 +22,7 @@ fn topic(name: &str, verdict: Verdict) -> TopicOutcome {
 }
 
 /// A signal of these golden and computed values, 1 ms apart.
-pub(super) fn signal(unit: &'static str, values: impl Iterator<Item = (f64, f64)>) -> Signal {
+pub(in crate::replay) fn signal(unit: &'static str, values: impl Iterator<Item = (f64, f64)>) -> Signal {
     let bins = values.zip(0..).map(|((golden, computed), ms)| Bin {
         start_ns: 10_000_000_000 + ms * 1_000_000,
         end_ns: 10_001_000_000 + ms * 1_000_000,
@@ -34,7 +34,7 @@ pub(super) fn signal(unit: &'static str, values: impl Iterator<Item = (f64, f64)
 }
 
 /// One topic that differs, one that does not, one that the golden recording does not have.
-pub(super) fn outcome() -> Outcome {
+pub(in crate::replay) fn outcome() -> Outcome {
     let stamp_ns = 10_020_000_000;
     let change = ValueChange {
         field: "wrench.force.z".to_owned(),
