@@ -1,6 +1,7 @@
 """The recording node over DDS: it loses nothing, adapts to its publishers, and leaves a readable file however it ends."""
 
 import json
+import resource
 import signal
 import subprocess
 import sys
@@ -9,13 +10,15 @@ from pathlib import Path
 
 import peer
 import pytest
-from geometry_msgs.msg import PoseStamped
+from crtk_msgs.msg import OperatingState, StringStamped
+from geometry_msgs.msg import PoseStamped, WrenchStamped
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability
-from sensor_msgs.msg import Joy
+from ruamel.yaml import YAML
+from sensor_msgs.msg import JointState, Joy
 from shape_msgs.msg import Mesh
-from std_msgs.msg import String
+from std_msgs.msg import Bool, Empty, String
 
 BEST_EFFORT = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -116,20 +119,121 @@ def test_by_default_the_topics_of_the_namespace_and_its_devices_are_recorded(tmp
     assert topics["/diagnostics"] >= 1
 
 
-def test_a_killed_recorder_leaves_what_came_up_to_a_second_before(tmp_path, programs, remote, example):
-    program = programs(recorder(tmp_path, recording__topics=["measured_cp"]))
-    publisher = remote.node.create_publisher(PoseStamped, "measured_cp", peer.reliable(1000))
-    remote.wait_for(lambda: publisher.get_subscription_count(), "the recorder")
-    for number in range(500):
-        publisher.publish(pose(number))
-        time.sleep(0.001)
-    remote.spin(2.0)
-    program.process.send_signal(signal.SIGKILL)
-    program.process.wait()
+def test_everything_a_session_says_is_recorded_with_buttons_of_any_name(tmp_path, programs, remote):
+    program = programs(recorder(tmp_path))
+    kinds = {
+        "operating_state": (OperatingState, peer.latched(10)),
+        "state_command": (StringStamped, peer.reliable(10)),
+        "emergency_stop": (Bool, peer.reliable(10)),
+        "hold": (Empty, peer.reliable(10)),
+        "free": (Empty, peer.reliable(10)),
+        "body/measured_cf": (WrenchStamped, peer.reliable(10)),
+        "body/servo_cf": (WrenchStamped, peer.reliable(10)),
+        "spatial/measured_cf": (WrenchStamped, peer.reliable(10)),
+        "measured_js": (JointState, peer.reliable(10)),
+        "gripper/servo_jf": (JointState, peer.reliable(10)),
+        "coag": (Joy, peer.latched(10)),
+    }
+    publishers = {name: remote.node.create_publisher(kind, name, qos) for name, (kind, qos) in kinds.items()}
+    for name, (kind, _) in kinds.items():
+        # A latched one is kept for whoever comes, the others wait for the recorder.
+        if name != "coag":
+            remote.wait_for(publishers[name].get_subscription_count, f"the recorder on {name}")
+        publishers[name].publish(kind())
+    remote.wait_for(publishers["coag"].get_subscription_count, "the recorder on a button")
+    remote.spin(0.2)
+    assert program.interrupt()[0] == 0, program.log()
+    counts = program.closing_report()["topics"]
+    assert {name: counts.get(f"/{name}") for name in kinds} == dict.fromkeys(kinds, 1)
+    assert set(read(tmp_path / "session")) >= {f"/{name}" for name in kinds}
+
+
+def test_log_times_are_those_of_receipt_and_not_of_fetching(tmp_path, programs, remote):
+    program = programs(recorder(tmp_path, recording__topics=["measured_cp", "grasp"]))
+    poses = remote.node.create_publisher(PoseStamped, "measured_cp", peer.reliable(100))
+    grasps = remote.node.create_publisher(Bool, "grasp", peer.reliable(100))
+    remote.wait_for(lambda: poses.get_subscription_count() and grasps.get_subscription_count(), "the recorder")
+    sent = []
+    for number in range(100):
+        sent.append(time.time_ns())
+        (grasps.publish(Bool(data=True)) if number % 10 == 5 else poses.publish(pose(number)))
+        time.sleep(0.002)
+    assert program.interrupt()[0] == 0, program.log()
+    with AnyReader([tmp_path / "session"]) as reader:
+        found = [(connection.topic, at) for connection, at, _ in reader.messages()]
+    # Across topics too, although each is fetched on its own and only every 10 ms.
+    assert [topic for topic, _ in found] == ["/grasp" if number % 10 == 5 else "/measured_cp" for number in range(100)]
+    delays_ms = sorted((at - sent_at) * 1e-6 for (_, at), sent_at in zip(found, sent))
+    assert delays_ms[0] > -0.5 and delays_ms[50] < 5.0, delays_ms
+
+
+@pytest.mark.parametrize("version", [5, 9])
+def test_the_metadata_has_the_version_that_is_asked_for(tmp_path, programs, remote, version):
+    program = programs(recorder(tmp_path, recording__topics=["measured_cp"], recording__metadata_version=version))
+    remote.publish(pose(1), "measured_cp", peer.reliable(10))
+    remote.spin(0.2)
+    assert program.interrupt()[0] == 0, program.log()
+    text = (tmp_path / "session" / "metadata.yaml").read_text()
+    assert YAML(typ="safe").load(text)["rosbag2_bagfile_information"]["version"] == version
+    assert numbers(read(tmp_path / "session")["/measured_cp"]) == [1]
+
+
+def test_a_recorder_killed_while_it_writes_leaves_all_but_the_last_second(tmp_path, programs, example):
+    topics = ["measured_cp", "servo_cf", "surface_displacement"]
+    program = programs(recorder(tmp_path, recording__topics=topics))
+    publisher = subprocess.Popen(
+        [sys.executable, Path(__file__).with_name("numbered_publisher.py"), "60000", *topics],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        file = tmp_path / "session" / "session_0.mcap"
+        end = time.monotonic() + peer.TIMEOUT_S
+        while file.stat().st_size < 3_000_000:
+            assert time.monotonic() < end
+            time.sleep(0.01)
+        killed_ns = time.time_ns()
+        program.process.send_signal(signal.SIGKILL)
+        program.process.wait()
+    finally:
+        publisher.kill()
+        publisher.communicate()
     lines = [json.loads(line) for line in example("print_recording", tmp_path / "session").splitlines()]
-    assert any("stopped hard" in line.get("damage", "") for line in lines)
-    found = [line["value"]["header"]["stamp"]["nanosec"] for line in lines if "on" in line]
-    assert found == list(range(500))
+    assert any("damage" in line for line in lines)
+    for topic in topics:
+        found = [line for line in lines if line.get("on") == f"/{topic}"]
+        stamps = [line["value"]["header"]["stamp"]["nanosec"] for line in found]
+        assert stamps == list(range(len(stamps))), topic
+        assert killed_ns - found[-1]["log_time_ns"] < 1_000_000_000, topic
+
+
+def test_a_full_disk_is_one_error_and_what_was_written_stays_readable(tmp_path, programs, example):
+    topics = ["measured_cp", "surface_displacement"]
+    program = programs(recorder(tmp_path, recording__topics=topics))
+    # A file that must not grow further fails to be written as one on a full disk does.
+    limit = 4_000_000
+    resource.prlimit(program.process.pid, resource.RLIMIT_FSIZE, (limit, limit))
+    publisher = subprocess.Popen(
+        [sys.executable, Path(__file__).with_name("numbered_publisher.py"), "60000", *topics],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        assert program.process.wait(2 * peer.TIMEOUT_S) == 1, program.log()
+    finally:
+        publisher.kill()
+        publisher.communicate()
+    errors = [line for line in program.log().splitlines() if "ERROR" in line]
+    assert len(errors) == 1, program.log()
+    for word in ("session_0.mcap", "cannot write", "File too large", "stays readable"):
+        assert word in errors[0]
+    assert "panicked" not in program.log()
+    lines = [json.loads(line) for line in example("print_recording", tmp_path / "session").splitlines()]
+    for topic in topics:
+        found = [line["value"]["header"]["stamp"]["nanosec"] for line in lines if line.get("on") == f"/{topic}"]
+        assert found == list(range(len(found))) and len(found) > 20, topic
 
 
 @pytest.mark.parametrize(

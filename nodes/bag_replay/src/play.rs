@@ -30,6 +30,8 @@ use progress::Progress;
 pub(crate) use settings::PlaySettings;
 use sim_clock::SimClock;
 
+use crate::rcl::RawNode;
+
 /// Longest time between a signal and its effect.
 const TURN: Duration = Duration::from_millis(50);
 /// How long the publishers stay after the last message, so that reliable subscribers get what they still miss.
@@ -40,6 +42,7 @@ pub(crate) fn run(kit: &mut NodeKit, settings: &PlaySettings) -> anyhow::Result<
     let recording = Recording::open(&settings.path)?;
     tell_damage(kit.log(), &recording);
     let outlets = outlets::open(kit, &recording, settings)?;
+    let node = RawNode::new(kit)?;
     let clock = match settings.clock_period {
         Some(period) => Some(SimClock::new(kit.publish(&topics::CLOCK, "")?, period)),
         None => None,
@@ -48,7 +51,9 @@ pub(crate) fn run(kit: &mut NodeKit, settings: &PlaySettings) -> anyhow::Result<
     let services = ControlServices::new(kit, control.clone())?;
     let topics_in_recording = recording.topics().len();
     let mut lockstep = match settings.lockstep {
-        Some(timeout) => Some(Lockstep::new(kit, &settings.devices, &outlets, topics_in_recording, timeout)?),
+        Some(timeout) => {
+            Some(Lockstep::new(kit, &node, &settings.devices, &outlets, topics_in_recording, timeout)?)
+        }
         None => None,
     };
     let how = match (settings.lockstep, settings.rate) {
@@ -57,7 +62,7 @@ pub(crate) fn run(kit: &mut NodeKit, settings: &PlaySettings) -> anyhow::Result<
     };
     kit.ready(&format!("playing {} topics of {} {how}", outlets.len(), settings.path.display()));
     wait_for_subscribers(kit, &outlets, settings.wait_for_subscribers);
-    check_types_in_graph(kit, &outlets)?;
+    check_types_in_graph(&node, &outlets)?;
 
     let progress = Progress::new(&recording, settings);
     let mut player = Player {
@@ -71,31 +76,31 @@ pub(crate) fn run(kit: &mut NodeKit, settings: &PlaySettings) -> anyhow::Result<
         log: kit.log().clone(),
         progress: &progress,
     };
-    let mut node = NodeHost { kit, services, control: &control, progress: &progress };
+    let mut host = NodeHost { kit, services, control: &control, progress: &progress };
     let result = match &mut lockstep {
         Some(lockstep) => lockstep
-            .meet(&mut node, &outlets, settings.wait_for_subscribers)
-            .and_then(|()| player.play(&mut node, Some(lockstep))),
-        None => play_by_the_clock(&mut node, &mut player),
+            .meet(&mut host, &outlets, settings.wait_for_subscribers)
+            .and_then(|()| player.play(&mut host, Some(lockstep))),
+        None => play_by_the_clock(&mut host, &mut player),
     };
     let end = Instant::now() + LINGER;
     while result.is_ok() && Instant::now() < end {
-        node.idle(TURN)?;
+        host.idle(TURN)?;
     }
     report(kit, &recording, &outlets, &progress, lockstep.as_ref());
     result
 }
 
 /// Sends from a thread of its own.
-fn play_by_the_clock(node: &mut NodeHost<'_>, player: &mut Player<'_>) -> anyhow::Result<()> {
-    let mut clock = ClockHost { shutdown: node.kit.shutdown().clone(), control: player.control.clone() };
+fn play_by_the_clock(host: &mut NodeHost<'_>, player: &mut Player<'_>) -> anyhow::Result<()> {
+    let mut clock = ClockHost { shutdown: host.kit.shutdown().clone(), control: player.control.clone() };
     std::thread::scope(|scope| {
         let builder = std::thread::Builder::new().name("bag_player".to_owned());
         let thread = builder
             .spawn_scoped(scope, move || player.play(&mut clock, None))
             .context("the playing thread")?;
         while !thread.is_finished() {
-            node.idle(TURN)?;
+            host.idle(TURN)?;
         }
         thread.join().map_err(|_| anyhow!("the playing thread panicked"))?
     })
@@ -169,14 +174,14 @@ fn wait_for_subscribers(kit: &mut NodeKit, outlets: &[Outlet], longest: Duration
 }
 
 /// Nobody hears a topic that others know with another type.
-fn check_types_in_graph(kit: &mut NodeKit, outlets: &[Outlet]) -> anyhow::Result<()> {
-    let graph = kit.node().get_topic_names_and_types()?;
-    for outlet in outlets {
-        if let Some([first, second, ..]) = graph.get(&outlet.target).map(Vec::as_slice) {
+fn check_types_in_graph(node: &RawNode, outlets: &[Outlet]) -> anyhow::Result<()> {
+    for (name, types) in node.topics()? {
+        if let [first, second, ..] = types.as_slice()
+            && outlets.iter().any(|outlet| outlet.target == name)
+        {
             bail!(
-                "{} is {first} to one node and {second} to another; end the other one or give the topic another \
-                 name with replay.remap",
-                outlet.target
+                "{name} is {first} to one node and {second} to another; end the other one or give the topic another \
+                 name with replay.remap"
             );
         }
     }

@@ -7,6 +7,7 @@
 //! name. Topics are remapped by the command line as those of the node itself.
 #![expect(unsafe_code, reason = "rcl is a C library; r2r wraps less of it than a recorder needs")]
 
+mod graph;
 mod subscription;
 mod wait;
 
@@ -51,6 +52,14 @@ impl RawNode {
         // SAFETY: node and name live, and rcl only writes the number.
         let result = unsafe { c::rcl_count_publishers(self.handles.node, name.as_ptr(), &mut count) };
         if ok(result).is_ok() { count } else { 0 }
+    }
+
+    /// Name and types of each topic in the graph, by name.
+    ///
+    /// # Errors
+    /// What rcl says.
+    pub(crate) fn topics(&self) -> anyhow::Result<Vec<(String, Vec<String>)>> {
+        graph::topics(&self.handles)
     }
 
     /// A wait set for up to `capacity` subscriptions of this node.

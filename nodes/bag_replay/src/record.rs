@@ -130,14 +130,14 @@ impl Recorder<'_> {
             return Ok(());
         }
         let (namespace, devices) = (kit.namespace().to_owned(), &self.settings.devices);
-        let graph = kit.node().get_topic_names_and_types()?;
-        let mut buttons: Vec<String> = graph
+        let buttons: Vec<String> = self
+            .node
+            .topics()?
             .into_iter()
             .filter(|(name, types)| session::is_button(&namespace, devices, name, types))
             .map(|(name, _)| name)
             .filter(|name| self.subscriptions.iter().all(|subscription| subscription.name() != name))
             .collect();
-        buttons.sort();
         for name in buttons {
             let qos = session::button_qos();
             let subscription = Subscription::to_known_topic(&self.node, &name, session::BUTTON_TYPE, &qos);

@@ -5,7 +5,7 @@ use std::time::SystemTime;
 
 use anyhow::bail;
 use node_kit::NodeKit;
-use recording::Writer;
+use recording::{Writer, WriterOptions};
 
 use crate::names;
 use crate::play::PlaySettings;
@@ -50,8 +50,11 @@ impl RecordSettings {
 
     /// Begins the recording.
     pub(crate) fn create_writer(&self) -> Result<Writer, recording::Error> {
-        let ros_distro = std::env::var("ROS_DISTRO").unwrap_or_default();
-        Writer::create(&self.directory, &ros_distro)
+        let options = WriterOptions {
+            metadata_version: self.metadata_version,
+            ros_distro: std::env::var("ROS_DISTRO").unwrap_or_default(),
+        };
+        Writer::create_with(&self.directory, options)
     }
 }
 

@@ -68,12 +68,12 @@ impl Lockstep {
     /// No poses of the session's devices are played.
     pub(crate) fn new(
         kit: &NodeKit,
+        node: &RawNode,
         devices: &[String],
         outlets: &[Outlet],
         topics_in_recording: usize,
         timeout: Duration,
     ) -> anyhow::Result<Self> {
-        let node = RawNode::new(kit)?;
         let in_graph = |name: String| absolute(kit.namespace(), &name);
         let mut known = Vec::new();
         let mut buttons = Vec::new();
@@ -87,7 +87,7 @@ impl Lockstep {
             buttons.extend(its_buttons.map(in_graph));
             if outlets.iter().any(|outlet| outlet.content.is_pose() && outlet.target == pose_topic) {
                 let force_topic = in_graph(topics::SERVO_CF.name_in(device));
-                let forces = subscribe(&node, &topics::SERVO_CF, &force_topic)?;
+                let forces = subscribe(node, &topics::SERVO_CF, &force_topic)?;
                 known.push(Device { pose_topic, force_topic, forces });
             }
         }
@@ -119,8 +119,8 @@ impl Lockstep {
         Ok(Self {
             wait_set: node.wait_set(known.len() + 2)?,
             devices: known,
-            buttons: Total::new(&node, &topics::BUTTONS_HEARD, in_graph)?,
-            transforms: Total::new(&node, &topics::TRANSFORMS_HEARD, in_graph)?,
+            buttons: Total::new(node, &topics::BUTTONS_HEARD, in_graph)?,
+            transforms: Total::new(node, &topics::TRANSFORMS_HEARD, in_graph)?,
             roles,
             timeout,
             answered: Histogram::default(),
