@@ -133,15 +133,14 @@ pub fn digest_of(recording: &Recording, topics: &[&str]) -> Result<DigestValue, 
     if let Some(error) = recording.damage().first() {
         return Err(DigestError::Damaged(error.to_string()));
     }
-    let is_asked: Vec<bool> =
-        names().map(|name| known.contains(&name) && (topics.is_empty() || topics.contains(&name))).collect();
+    let is_asked = |name: &str| known.contains(&name) && (topics.is_empty() || topics.contains(&name));
+    let asked: Vec<usize> =
+        names().enumerate().filter(|(_, name)| is_asked(name)).map(|(place, _)| place).collect();
     let mut digest = Digest::new();
-    let mut counts = vec![0_u64; is_asked.len()];
-    for message in recording.messages() {
+    let mut counts = vec![0_u64; recording.topics().len()];
+    for message in recording.messages_of(&asked) {
         let message = message.map_err(|error| DigestError::Damaged(error.to_string()))?;
-        let (Some(true), Some(index)) = (is_asked.get(message.topic), counts.get_mut(message.topic)) else {
-            continue;
-        };
+        let Some(index) = counts.get_mut(message.topic) else { continue };
         let Some(topic) = recording.topics().get(message.topic) else { continue };
         let name = &topic.topic.name;
         digest.take(name, &message.data).map_err(|source| DigestError::Message {

@@ -71,7 +71,7 @@ impl<'a> Golden<'a> {
         }
         let mut damage = Reasons::default();
         recording.damage().iter().for_each(|error| damage.add(|| error.to_string()));
-        let common = recording.messages();
+        let common = recording.messages_of(&slots.concat());
         let slots = slots.into_iter().map(|topics| Slot { topics, ..Slot::default() }).collect();
         Self { recording, common, slot_of_topic, slots, damage }
     }
@@ -178,15 +178,12 @@ impl<'a> Slot<'a> {
 
     fn pull_own(&mut self, recording: &'a Recording) -> bool {
         if self.own.is_none() {
-            let mut messages = recording.messages();
+            let mut messages = recording.messages_of(&self.topics);
             // What cannot be read was noted in the common stream.
             let mut skipped = 0;
             while skipped < self.seen {
                 match messages.next() {
-                    Some(message) => {
-                        skipped +=
-                            u64::from(message.is_ok_and(|message| self.topics.contains(&message.topic)))
-                    }
+                    Some(message) => skipped += u64::from(message.is_ok()),
                     None => break,
                 }
             }
@@ -194,7 +191,6 @@ impl<'a> Slot<'a> {
         }
         while let Some(message) = self.own.as_mut().and_then(Iterator::next) {
             if let Ok(message) = message
-                && self.topics.contains(&message.topic)
                 && self.push(message)
             {
                 return true;

@@ -39,10 +39,6 @@ impl<'a> Cursor<'a> {
         self.take().map(u32::from_le_bytes)
     }
 
-    fn f32(&mut self) -> Option<f32> {
-        self.take().map(f32::from_le_bytes)
-    }
-
     fn f64(&mut self) -> Option<f64> {
         self.take().map(f64::from_le_bytes)
     }
@@ -95,19 +91,27 @@ fn drawn(kind: Kind, cursor: &mut Cursor<'_>) -> Option<f64> {
             let vertices = cursor.u32()? as usize;
             cursor.skip(vertices.checked_mul(size_of::<u32>())?)?;
             let components = cursor.u32()? as usize;
-            let mut largest_squared = 0.0_f64;
-            for _ in 0..components / 3 {
-                let [x, y, z] = [cursor.f32()?, cursor.f32()?, cursor.f32()?].map(f64::from);
-                let squared = x * x + y * y + z * z;
-                // A NaN stays: it is larger than anything that can be drawn.
-                if squared > largest_squared || squared.is_nan() {
-                    largest_squared = squared;
-                }
-            }
-            Some(largest_squared.sqrt())
+            let bytes = cursor.body.get(cursor.at..)?.get(..components.checked_mul(size_of::<f32>())?)?;
+            let squared = if cursor.big_endian {
+                largest_squared(bytes, f32::from_be_bytes)
+            } else {
+                largest_squared(bytes, f32::from_le_bytes)
+            };
+            Some(squared.sqrt())
         }
         Kind::Law | Kind::Pose | Kind::Twist | Kind::Joints => None,
     }
+}
+
+/// Of vectors of three numbers. `max` passes over a NaN, which cannot be drawn.
+fn largest_squared(bytes: &[u8], number: impl Fn([u8; 4]) -> f32) -> f64 {
+    let (numbers, _) = bytes.as_chunks::<4>();
+    let (vectors, _) = numbers.as_chunks::<3>();
+    let squared = |vector: &[[u8; 4]; 3]| {
+        let [x, y, z] = vector.map(|bytes| f64::from(number(bytes)));
+        x * x + y * y + z * z
+    };
+    vectors.iter().map(squared).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -32,6 +32,8 @@ const DARK: &str = "<style>@media (prefers-color-scheme: dark) { rect[fill=\"#FF
 
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ticks, Ticks>>;
 type Ends = Option<(f64, f64)>;
+/// Which values of a bin are drawn, and their colour and width.
+type Series = (fn(&Bin) -> Ends, (RGBColor, u32));
 
 /// A topic with something to draw.
 struct Panel<'a> {
@@ -187,7 +189,7 @@ fn chart(
     span: Span,
     scale: &Scaled,
     (label, with_time): (&str, bool),
-    series: &[(fn(&Bin) -> Ends, (RGBColor, u32))],
+    series: &[Series],
     marked_ns: Option<i64>,
 ) -> Result<(), DrawingError> {
     let values = || series.iter().flat_map(|(ends, _)| bins.iter().filter_map(|bin| scale.ends(ends(bin))));
