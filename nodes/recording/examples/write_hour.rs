@@ -28,13 +28,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let header = Header { stamp, frame_id: "device_base".to_owned() };
         let log_time_ns = 1_700_000_000_000_000_000 + millisecond * 1_000_000;
         let mut pose = PoseStamped { header: header.clone(), ..PoseStamped::default() };
-        pose.pose.position.z = (millisecond as f64 * 1e-3).sin() * 0.01;
+        pose.pose.position.z = (millisecond % 1000) as f64 * 1e-5;
         let mut force = WrenchStamped { header: header.clone(), ..WrenchStamped::default() };
         force.wrench.force.z = pose.pose.position.z * 300.0;
         writer.write(poses, log_time_ns, &encode(&pose))?;
         writer.write(forces, log_time_ns + 100_000, &encode(&force))?;
         if with_surface && millisecond % 1000 * 60 % 1000 < 60 {
-            let displacement = (0..3 * 3116).map(|at| (at as f32 * 0.1).sin() * 1e-3).collect();
+            let displacement = (0..3 * 3116).map(|at| (at % 97) as f32 * 1e-5).collect();
             let surface = SurfaceDisplacement {
                 header,
                 topology_version: 1,

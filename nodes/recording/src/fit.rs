@@ -251,7 +251,7 @@ impl Fields<'_> {
     /// A list of elements of this many bytes.
     fn block_of(&mut self, each: usize) -> Option<()> {
         let length = u32::from_le_bytes(*self.content.get(self.at..)?.first_chunk()?) as usize;
-        (length % each == 0).then_some(())?;
+        length.is_multiple_of(each).then_some(())?;
         self.skip(4)?;
         self.skip(length)
     }
