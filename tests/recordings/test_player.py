@@ -124,7 +124,7 @@ def test_a_cut_recording_plays_as_far_as_it_goes_and_says_so(tmp_path, programs,
     program = programs(player(tmp_path, tmp_path / "cut.mcap", replay__rate=10.0))
     assert program.process.wait(peer.TIMEOUT_S) == 0, program.log()
     report = program.closing_report()
-    assert report["unreadable_places"] == 1 and 0 < report["topics"]["/measured_cp"] < COUNT
+    assert report["unreadable_places"] >= 1 and 0 < report["topics"]["/measured_cp"] < COUNT
     assert "playing what can be read" in program.log()
 
 

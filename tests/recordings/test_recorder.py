@@ -20,6 +20,8 @@ from sensor_msgs.msg import JointState, Joy
 from shape_msgs.msg import Mesh
 from std_msgs.msg import Bool, Empty, String
 
+# A publisher that knows a reader is not yet known to it: what it sends meanwhile comes late, or never if it is best effort.
+SETTLE_S = 0.5
 BEST_EFFORT = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
@@ -83,6 +85,7 @@ def test_publishers_of_any_quality_of_service_are_recorded_with_it(tmp_path, pro
     words = remote.node.create_publisher(String, words_topic, peer.reliable(10))
     publishers = [weak_pose, weak_clutch, words, latched]
     remote.wait_for(lambda: all(publisher.get_subscription_count() for publisher in publishers), "the recorder")
+    remote.spin(SETTLE_S)
     for number in range(10):
         weak_pose.publish(pose(number))
         weak_clutch.publish(Joy(buttons=[number]))
@@ -141,7 +144,7 @@ def test_everything_a_session_says_is_recorded_with_buttons_of_any_name(tmp_path
             remote.wait_for(publishers[name].get_subscription_count, f"the recorder on {name}")
         publishers[name].publish(kind())
     remote.wait_for(publishers["coag"].get_subscription_count, "the recorder on a button")
-    remote.spin(0.2)
+    remote.spin(SETTLE_S)
     assert program.interrupt()[0] == 0, program.log()
     counts = program.closing_report()["topics"]
     assert {name: counts.get(f"/{name}") for name in kinds} == dict.fromkeys(kinds, 1)
@@ -153,6 +156,7 @@ def test_log_times_are_those_of_receipt_and_not_of_fetching(tmp_path, programs, 
     poses = remote.node.create_publisher(PoseStamped, "measured_cp", peer.reliable(100))
     grasps = remote.node.create_publisher(Bool, "grasp", peer.reliable(100))
     remote.wait_for(lambda: poses.get_subscription_count() and grasps.get_subscription_count(), "the recorder")
+    remote.spin(SETTLE_S)
     sent = []
     for number in range(100):
         sent.append(time.time_ns())
@@ -171,7 +175,7 @@ def test_log_times_are_those_of_receipt_and_not_of_fetching(tmp_path, programs, 
 def test_the_metadata_has_the_version_that_is_asked_for(tmp_path, programs, remote, version):
     program = programs(recorder(tmp_path, recording__topics=["measured_cp"], recording__metadata_version=version))
     remote.publish(pose(1), "measured_cp", peer.reliable(10))
-    remote.spin(0.2)
+    remote.spin(SETTLE_S)
     assert program.interrupt()[0] == 0, program.log()
     text = (tmp_path / "session" / "metadata.yaml").read_text()
     assert YAML(typ="safe").load(text)["rosbag2_bagfile_information"]["version"] == version
