@@ -31,17 +31,18 @@ impl Directory {
         }
         let present = recorded_files_in(path)?;
         let mut unlisted: BTreeSet<_> = present.iter().cloned().collect();
+        let mut taken = BTreeSet::new();
         for listed in directory.metadata.iter().flat_map(|metadata| &metadata.relative_file_paths) {
             // Old versions wrote the directory in front of the name; and a recording has no business outside of it.
             let Some(name) = Path::new(listed).file_name() else { continue };
             let file = path.join(name);
             let other = other_form(&file);
             let found = [&file, &other].into_iter().find(|candidate| unlisted.remove(*candidate));
-            if found.is_none() && !directory.files.contains(&file) {
+            if found.is_none() && !taken.contains(&file) {
                 directory.disagreements.push(format!("metadata.yaml names {listed}, which is not there"));
             }
             let file = found.unwrap_or(&file).clone();
-            if !directory.files.contains(&file) {
+            if taken.insert(file.clone()) {
                 directory.files.push(file);
             }
         }

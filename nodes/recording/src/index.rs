@@ -223,8 +223,10 @@ impl<'a> Walk<'a> {
             self.allowance = left;
         }
         let indexed = self.summary.and_then(|summary| summary.chunks.get(&offset));
+        // Times that are zero are those of a chunk without messages, as in a recording that has none.
+        let has_times = (start_ns, end_ns) != (0, 0) && !is_empty(&chunk);
         let is_as_indexed = indexed.is_some_and(|index| {
-            index.message_start_time == start_ns && index.message_end_time == end_ns && !is_empty(&chunk)
+            index.message_start_time == start_ns && index.message_end_time == end_ns && has_times
         });
         match indexed {
             Some(index) if is_as_indexed => {

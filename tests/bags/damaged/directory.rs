@@ -2,7 +2,11 @@
 
 use std::path::PathBuf;
 
-use super::Expected::{Damaged, Unreadable};
+use recording::Writer;
+use recording::cdr::Message as _;
+use recording::messages::PoseStamped;
+
+use super::Expected::{Damaged, Unreadable, Whole};
 use super::{Case, Expected, whole};
 
 pub fn cases() -> Vec<Case> {
@@ -11,6 +15,11 @@ pub fn cases() -> Vec<Case> {
     let (poses, all) =
         (format!("message_count: {}", whole::POSES), format!("message_count: {}", whole::MESSAGES));
     assert!(metadata.contains(&poses) && metadata.contains(&all), "{metadata}");
+    let empty = whole::made(|path| {
+        let mut writer = Writer::create(path, "jazzy").unwrap();
+        writer.add_topic(whole::topic("/measured_cp", PoseStamped::TYPE_NAME, whole::POSE_TEXT)).unwrap();
+        writer.close().unwrap();
+    });
     let with = |name, expected, words, metadata: &str| Case {
         name,
         expected,
@@ -55,6 +64,13 @@ pub fn cases() -> Vec<Case> {
             &["session_0.mcap"],
             0,
             vec![(PathBuf::from("metadata.yaml"), metadata.into_bytes())],
+        ),
+        directory(
+            "no_messages_at_all",
+            Whole,
+            &["no messages"],
+            0,
+            vec![(PathBuf::from("metadata.yaml"), empty.0), (PathBuf::from("session_0.mcap"), empty.1)],
         ),
         directory("nothing_in_it", Unreadable, &["metadata.yaml"], 0, Vec::new()),
         directory(

@@ -68,7 +68,7 @@ impl Times {
             }
         }
         let span_ns = times.last().zip(times.first()).map_or(0, |(last, first)| last - first);
-        let mean_rate_hz = (span_ns > 0).then(|| (times.len() - 1) as f64 / (span_ns as f64 * 1e-9));
+        let mean_rate_hz = (span_ns > 0).then(|| (times.len() - 1) as f64 * 1e9 / span_ns as f64);
         // In place: the distances take the room of the times.
         let count = times.len().saturating_sub(1);
         for place in 0..count {
