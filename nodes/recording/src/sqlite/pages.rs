@@ -94,7 +94,7 @@ impl PageFile {
             return Some("the file does not begin with the SQLite magic bytes".to_owned());
         }
         let (there, promised) = (self.count, self.promised);
-        let is_cut = promised > there || self.len % self.page_size as u64 != 0;
+        let is_cut = promised > there || !self.len.is_multiple_of(self.page_size as u64);
         is_cut.then(|| format!("the file is cut: {there} of {} pages are there", promised.max(there)))
     }
 
