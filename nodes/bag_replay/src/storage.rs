@@ -9,13 +9,15 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use anyhow::{Context, anyhow};
-use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, unbounded};
+use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, bounded};
 use recording::{DefinitionError, MessageDefinition, Qos, Topic, TopicId, Writer, Written};
 
 use crate::batch::Batch;
 
 /// Half a minute of a session with two devices.
 const QUEUE_BYTES: usize = 64 << 20;
+/// The same for messages that are small or have no content.
+const QUEUE_BATCHES: usize = 4096;
 /// How often a full queue is looked at.
 const FULL: Duration = Duration::from_millis(2);
 /// Without new messages what was received goes to the file after this long.
@@ -52,7 +54,7 @@ impl Storage {
         find_definition: Box<FindDefinition>,
         warn: Box<dyn Fn(&str) + Send>,
     ) -> anyhow::Result<Self> {
-        let (jobs, queue) = unbounded();
+        let (jobs, queue) = bounded(QUEUE_BATCHES);
         let waiting = Arc::new(AtomicUsize::new(0));
         let written = Arc::clone(&waiting);
         let definition_of = move |name: &str, type_name: &str| {
@@ -77,7 +79,7 @@ impl Storage {
 
     /// Stores messages; waits while the queue is full.
     pub(crate) fn store(&mut self, batch: Batch) {
-        if self.waiting.load(Ordering::Relaxed) > QUEUE_BYTES {
+        if self.waiting.load(Ordering::Relaxed) > QUEUE_BYTES || self.jobs.is_full() {
             self.held_up += 1;
         }
         while self.waiting.load(Ordering::Relaxed) > QUEUE_BYTES && !self.has_failed() {
@@ -157,7 +159,7 @@ mod tests {
     fn start(directory: &std::path::Path) -> (Storage, Receiver<String>) {
         let writer = Writer::create(directory, "").unwrap();
         let nowhere = MessageDefinitions::new(Vec::new());
-        let (warnings, warned) = unbounded();
+        let (warnings, warned) = bounded(10);
         let warn = move |text: &str| warnings.send(text.to_owned()).unwrap();
         (Storage::start(writer, Box::new(move |name| nowhere.get(name)), Box::new(warn)).unwrap(), warned)
     }

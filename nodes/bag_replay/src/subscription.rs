@@ -107,6 +107,10 @@ impl Subscription {
         let request = Request::matching(&offers);
         let request = if self.inner.is_some() { self.request.and(request) } else { request };
         if self.inner.is_none() || request != self.request {
+            // What waits in the old subscription would go with it.
+            let mut batch = Batch::default();
+            self.drain(kit, storage, &mut batch, usize::MAX)?;
+            storage.store(batch);
             self.request = request;
             if let Err(error) = self.subscribe(node, &type_name) {
                 self.given_up = true;

@@ -8,6 +8,9 @@ use recording::messages::{
     SurfaceDisplacement, TFMessage, Time, TransformStamped, TwistStamped, WrenchStamped,
 };
 
+/// Whether bytes are a message of one type.
+type Check = fn(&[u8]) -> Result<(), CdrError>;
+
 /// How the messages of one topic are treated.
 #[derive(Clone, Copy)]
 pub(crate) enum Content {
@@ -16,7 +19,7 @@ pub(crate) enum Content {
     /// Transforms that are sent as poses: older CRTK devices publish `measured_cp` so.
     TransformAsPose,
     /// Of a type that can be checked.
-    Checked(fn(&[u8]) -> Result<(), CdrError>),
+    Checked(Check),
     /// Of any other type.
     Unchecked,
 }
@@ -78,7 +81,7 @@ pub(crate) fn is_pose_topic(name: &str) -> bool {
     name.rsplit('/').next() == Some("measured_cp")
 }
 
-fn check_of(type_name: &str) -> Option<fn(&[u8]) -> Result<(), CdrError>> {
+fn check_of(type_name: &str) -> Option<Check> {
     fn check<M: Message>(data: &[u8]) -> Result<(), CdrError> {
         match cdr::decode::<M>(data) {
             // rmw_fastrtps, asked to serialize without sending, returns the size it estimated, with anything at the end.

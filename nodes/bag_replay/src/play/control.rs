@@ -159,11 +159,12 @@ mod tests {
     fn who_waits_sees_a_request_at_once() {
         let control = Control::new(true);
         let waiting = control.clone();
-        let thread = std::thread::spawn(move || {
+        let waits = move || {
             while waiting.mode() == Mode::Paused {
                 waiting.wait(Duration::from_secs(60));
             }
-        });
+        };
+        let thread = std::thread::Builder::new().name("waits".to_owned()).spawn(waits).unwrap();
         assert!(control.resume().0);
         thread.join().unwrap();
     }

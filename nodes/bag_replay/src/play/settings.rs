@@ -75,7 +75,10 @@ impl PlaySettings {
                 .into_iter()
                 .map(|text| QosRule::parse(text, namespace))
                 .collect::<Result<_, _>>()?,
-            clock_period: (clock_hz > 0.0).then(|| Duration::from_secs_f64(1.0 / clock_hz.max(1e-3))),
+            clock_period: match clock_hz > 0.0 {
+                true => Some(Duration::try_from_secs_f64(1.0 / clock_hz).context("replay.clock")?),
+                false => None,
+            },
             lockstep: match parameters.bool("replay.lockstep")? {
                 true => Some(seconds("replay.lockstep_timeout")?),
                 false => None,
