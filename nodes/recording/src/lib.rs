@@ -10,39 +10,39 @@
 mod block;
 pub mod cdr;
 pub mod check;
-mod compare;
 mod chunk;
+mod compare;
 mod compression;
-mod directory;
-mod fit;
-mod playback;
-#[cfg(feature = "sqlite")]
-mod sqlite;
-mod storage;
-mod summary;
 mod definitions;
 mod digest;
+mod directory;
 mod error;
 mod file;
+mod fit;
 mod index;
 pub mod messages;
 mod metadata;
 mod order;
+mod playback;
 mod qos;
 mod reader;
 pub mod repair;
+#[cfg(feature = "sqlite")]
+mod sqlite;
+mod storage;
+mod summary;
 mod topic;
 mod writer;
 
 pub use compare::{
-    Bin, Change, Comparison, Counts, Divergence, FieldOutcome, Outcome, Presence, Signal, ToleranceError, Tolerances,
-    TopicOutcome, Unpaired, Value, ValueChange, Verdict, Worst,
+    Bin, Change, Comparison, Counts, Divergence, FieldOutcome, Outcome, Presence, Signal, ToleranceError,
+    Tolerances, TopicOutcome, Unpaired, Value, ValueChange, Verdict, Worst,
 };
 pub use definitions::{DefinitionError, MessageDefinition, MessageDefinitions};
 pub use digest::{Digest, DigestError, DigestValue, digest_of};
 pub use error::Error;
-pub use qos::{Durability, History, Liveliness, Qos, QosTime, Reliability};
 pub use playback::{Playback, PlaybackMessages};
+pub use qos::{Durability, History, Liveliness, Qos, QosTime, Reliability};
 pub use reader::{Message, MessageRef, Messages, Recording, StoredMessages};
 pub use topic::{RecordedTopic, Topic};
 pub use writer::{TopicId, Writer, WriterOptions, Written};
