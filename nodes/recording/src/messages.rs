@@ -1,12 +1,14 @@
 //! The messages this product needs without ROS. Fields, names and units are those of the `.msg` files.
 
 mod definition;
+mod text;
 
 use serde::Serialize;
 
 use crate::cdr::{Decoder, Encoder, Fault, Message, Shape, Wire};
 
 pub use definition::same_definition;
+pub use text::own_definition;
 
 /// Defines a struct with the fields of a message and their order on the wire.
 macro_rules! message {

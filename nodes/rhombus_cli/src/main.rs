@@ -1,7 +1,6 @@
 //! `rhombus`: everything useful without ROS. Results go to stdout, errors to stderr; exit code 2 means the command
 //! line or an input was not accepted.
 
-mod assignments;
 mod bag;
 #[cfg(feature = "device")]
 mod device;
@@ -16,7 +15,9 @@ mod stability;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use rhombus_cli::{calibrate, output};
+#[cfg(feature = "replay")]
+use rhombus_cli::replay;
+use rhombus_cli::{assignments, calibrate, output};
 
 /// Contact laws, scenes and bodies of the parallel rhombus-chain model, without ROS.
 #[derive(Parser)]
@@ -39,6 +40,8 @@ enum Command {
     #[command(subcommand)]
     Mesh(mesh::Mesh),
     Parameters(parameters::Parameters),
+    #[cfg(feature = "replay")]
+    Replay(Box<replay::ReplayCommand>),
     #[cfg(feature = "report")]
     Report(report::Report),
     Stability(stability::Stability),
@@ -58,6 +61,8 @@ fn main() -> ExitCode {
         Command::Explain(command) => command.run(),
         Command::Mesh(command) => command.run(),
         Command::Parameters(command) => command.run(),
+        #[cfg(feature = "replay")]
+        Command::Replay(command) => return command.run().unwrap_or_else(|error| refused(&error)),
         Command::Stability(command) => command.run(),
         #[cfg(feature = "report")]
         Command::Report(command) => return command.run().unwrap_or_else(|error| refused(&error)),

@@ -1,0 +1,196 @@
+//! The command line of `rhombus replay`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use anyhow::{Context, ensure};
+use clap::{Args, ValueHint};
+use recording::{Comparison, Digest, Outcome, Recording, Tolerances};
+use scene::topic;
+use serde::Serialize;
+
+use super::model::{Counts, Replay};
+use super::record::Record;
+use super::{json, junit, markdown, plot, text};
+use crate::assignments::Assignments;
+use crate::output;
+
+/// Put the poses of a recording through the model again and compare what it answers, message by message
+///
+/// No ROS is needed: the model is the one of the deformation node, time is in the stamps, and equal inputs give equal bits. Frames are
+/// those of the parameters and of recorded /tf and /tf_static. Exit code: 0 the same (or nothing to compare), 1 different, 2 it could not be
+/// compared.
+#[derive(Args)]
+pub struct ReplayCommand {
+    /// Recording with the poses: a rosbag2 directory, or an .mcap or .db3 file
+    #[arg(value_name = "RECORDING", value_hint = ValueHint::AnyPath)]
+    recording: PathBuf,
+    /// ROS 2 parameter file of the scene
+    #[arg(long, value_name = "PARAMS.yaml", value_hint = ValueHint::FilePath)]
+    params: PathBuf,
+    #[command(flatten)]
+    assignments: Assignments,
+    /// Namespace of the session in the recording; found when only one fits
+    #[arg(long, value_name = "NAMESPACE")]
+    namespace: Option<String>,
+    /// A recorded topic under another name, such as /PSM1/measured_cp:=/measured_cp; may be repeated
+    #[arg(long, value_name = "FROM:=TO", value_parser = remapped)]
+    remap: Vec<(String, String)>,
+    /// Write forces, laws, contacts, surfaces and the mesh to a new recording
+    #[arg(long, value_name = "NEW", value_hint = ValueHint::AnyPath)]
+    record: Option<PathBuf>,
+    /// Compare with this recording; it may be RECORDING itself
+    #[arg(long, value_name = "GOLDEN", value_hint = ValueHint::AnyPath)]
+    expect: Option<PathBuf>,
+    /// Accept |computed - golden| <= ABS + REL |golden| on a topic or one field of it; every bit counts otherwise
+    #[arg(long, value_name = "TOPIC[.FIELD]=ABS,REL", requires = "expect")]
+    tolerance: Vec<String>,
+    /// Plot golden and computed signals and their difference
+    #[arg(long, value_name = "FILE.svg", requires = "expect", value_hint = ValueHint::FilePath)]
+    plot: Option<PathBuf>,
+    /// JUnit XML, a test case for each topic
+    #[arg(long, value_name = "FILE.xml", requires = "expect", value_hint = ValueHint::FilePath)]
+    junit: Option<PathBuf>,
+    /// Markdown for the summary of a CI job
+    #[arg(long, value_name = "FILE.md", requires = "expect", value_hint = ValueHint::FilePath)]
+    markdown: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is printed as JSON.
+#[derive(Serialize)]
+struct Report<'a> {
+    recording: &'a Path,
+    #[serde(flatten)]
+    counts: &'a Counts,
+    /// Recorded time that was replayed, s, and what the replay took.
+    recorded_s: f64,
+    elapsed_s: f64,
+    sha256: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    comparison: Option<json::Json>,
+}
+
+fn remapped(text: &str) -> Result<(String, String), String> {
+    match text.split_once(":=") {
+        Some((from, to)) if from.starts_with('/') && to.starts_with('/') => {
+            Ok((from.to_owned(), to.to_owned()))
+        }
+        _ => Err("accepted: FROM:=TO, both absolute, such as /PSM1/measured_cp:=/measured_cp".to_owned()),
+    }
+}
+
+impl ReplayCommand {
+    /// Runs it; the exit code says whether the recording is still the same.
+    ///
+    /// # Errors
+    /// Something could not be read, replayed or written.
+    pub fn run(&self) -> anyhow::Result<ExitCode> {
+        let scene = self.assignments.scene(&self.params)?;
+        let recording = Recording::open(&self.recording)?;
+        let golden = self.expect.as_ref().map(Recording::open).transpose()?;
+        let replay = Replay::new(&recording, &scene, self.namespace.as_deref(), &self.remap)?;
+        let topics = replay.topics().to_vec();
+        let judged: Vec<String> = topics
+            .iter()
+            .filter(|output| !output.name.ends_with(topic::BODY_MESH))
+            .filter(|output| {
+                !output.name.ends_with(topic::SURFACE_DISPLACEMENT) || scene.surface.rate_hz > 0.0
+            })
+            .map(|output| output.name.clone())
+            .collect();
+        let mut comparison = match &golden {
+            Some(golden) => Some(Comparison::new(golden, Tolerances::parse(&self.tolerance)?, &judged)?),
+            None => None,
+        };
+        let mut record = match &self.record {
+            Some(directory) => Some(Record::create(directory, &topics, &recording)?),
+            None => None,
+        };
+        let mut digest = Digest::new();
+        let began = Instant::now();
+        let counts = replay.run(|output| {
+            let name = &topics[output.topic].name;
+            digest.take(name, output.data)?;
+            if let Some(comparison) = &mut comparison {
+                comparison.take(name, output.data);
+            }
+            if let Some(record) = &mut record {
+                record.take(&output)?;
+            }
+            Ok(())
+        })?;
+        let outcome = comparison.map(Comparison::finish);
+        let elapsed_s = began.elapsed().as_secs_f64();
+        if let Some(record) = record {
+            record.close()?;
+        }
+        ensure!(counts.poses > 0, "{}: no pose could be read from it", self.recording.display());
+        let report = Report {
+            recording: &self.recording,
+            counts: &counts,
+            recorded_s: counts.stamps_ns.map_or(0.0, |(first, last)| last.abs_diff(first) as f64 * 1e-9),
+            elapsed_s,
+            sha256: digest.finish().to_string(),
+            comparison: outcome.as_ref().map(json::json),
+        };
+        self.write_reports(outcome.as_ref())?;
+        match self.json {
+            true => output::json(&report)?,
+            false => output::text(&in_words(&report, outcome.as_ref()))?,
+        }
+        Ok(ExitCode::from(outcome.map_or(0, |outcome| outcome.verdict.exit_code())))
+    }
+
+    fn write_reports(&self, outcome: Option<&Outcome>) -> anyhow::Result<()> {
+        let Some(outcome) = outcome else { return Ok(()) };
+        let write = |path: &Path, content: String| {
+            std::fs::write(path, content).with_context(|| format!("{}: cannot write", path.display()))
+        };
+        if let Some(path) = &self.plot {
+            write(path, plot::svg(outcome)?)?;
+        }
+        if let Some(path) = &self.junit {
+            write(path, junit::junit(outcome))?;
+        }
+        if let Some(path) = &self.markdown {
+            let plot = self.plot.as_deref().and_then(Path::file_name).map(|name| name.to_string_lossy());
+            write(path, markdown::markdown(outcome, plot.as_deref()))?;
+        }
+        Ok(())
+    }
+}
+
+fn in_words(report: &Report<'_>, outcome: Option<&Outcome>) -> String {
+    let counts = report.counts;
+    let mut words = format!(
+        "{}: {} poses over {:.1} s replayed in {:.2} s ({:.0} x real time), {} surfaces\n",
+        report.recording.display(),
+        counts.poses,
+        report.recorded_s,
+        report.elapsed_s,
+        report.recorded_s / report.elapsed_s.max(1e-9),
+        counts.surfaces,
+    );
+    let causes = counts.rejected.iter().zip(rhombus_chain::Rejection::CAUSES);
+    for (count, cause) in causes.filter(|(count, _)| **count > 0) {
+        words.push_str(&format!("{count} poses rejected: {cause}\n"));
+    }
+    if counts.unusable > 0 {
+        words.push_str(&format!("{} messages of the model's inputs could not be used\n", counts.unusable));
+    }
+    if counts.unreadable_places > 0 {
+        words.push_str(&format!(
+            "{} places of the recording could not be read; `rhombus bag check` says which\n",
+            counts.unreadable_places
+        ));
+    }
+    words.push_str(&format!("SHA-256 of all forces and displacements: {}\n", report.sha256));
+    if let Some(outcome) = outcome {
+        words.push_str(&text::text(outcome));
+    }
+    words
+}
