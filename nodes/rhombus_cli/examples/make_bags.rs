@@ -203,11 +203,9 @@ impl Bag {
     fn stands(&mut self, parent: &str, child: &str, at: DVec3, quaternion: [f64; 4]) {
         let fixed = match self.fixed {
             Some(fixed) => fixed,
-            None => *self.fixed.insert({
-                let name = "tf_static";
-                self.topic::<TFMessage>(name, true)
-            }),
+            None => self.topic::<TFMessage>("tf_static", true),
         };
+        self.fixed = Some(fixed);
         let transform =
             Transform { translation: Vector3 { x: at.x, y: at.y, z: at.z }, rotation: rotation(quaternion) };
         let stamped =
