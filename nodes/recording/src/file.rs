@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use mcap::records::Record;
 
 use crate::error::Error;
+use crate::fit::size_of_content;
 
 /// Kind and length in front of every record.
 pub(crate) const HEAD: u64 = 9;
@@ -64,11 +65,15 @@ impl McapFile {
         self.file.read_exact_at(bytes, range.start).map_err(Error::io(&self.path, "read"))
     }
 
-    /// The content of a record, parsed.
+    /// The content of a record, parsed. Its lengths are checked before: the parser allocates what they say.
     pub(crate) fn parse<'a>(&self, opcode: u8, content: &'a [u8], offset: u64) -> Result<Record<'a>, Error> {
-        mcap::parse_record(opcode, content).map_err(|error| {
-            Error::damaged(&self.path, offset, format!("record of kind {opcode:#04x}: {error}"))
-        })
+        let damaged = |reason: &dyn std::fmt::Display| {
+            Error::damaged(&self.path, offset, format!("record of kind {opcode:#04x}: {reason}"))
+        };
+        if size_of_content(opcode, content).is_none_or(|size| size > content.len() as u64) {
+            return Err(damaged(&"a field is longer than the record"));
+        }
+        mcap::parse_record(opcode, content).map_err(|error| damaged(&error))
     }
 }
 

@@ -172,7 +172,7 @@ impl<'a> View<'a> {
 
 /// How long the content of a record is by its own lengths; `None` when it is shorter than its fields. Of a chunk and an
 /// attachment the beginning is enough.
-fn size_of_content(opcode: u8, content: &[u8]) -> Option<u64> {
+pub(crate) fn size_of_content(opcode: u8, content: &[u8]) -> Option<u64> {
     let mut fields = Fields { content, at: 0 };
     match opcode {
         op::HEADER => fields.blocks(2)?,
@@ -183,7 +183,8 @@ fn size_of_content(opcode: u8, content: &[u8]) -> Option<u64> {
         }
         op::CHANNEL => {
             fields.skip(2 + 2)?;
-            fields.blocks(3)?;
+            fields.blocks(2)?;
+            fields.map()?;
         }
         op::CHUNK => {
             let mut head = vec![opcode; HEAD as usize];
@@ -219,7 +220,10 @@ fn size_of_content(opcode: u8, content: &[u8]) -> Option<u64> {
             fields.skip(8 + 2 + 4 * 4 + 8 + 8)?;
             fields.block_of(10)?;
         }
-        op::METADATA => fields.blocks(2)?,
+        op::METADATA => {
+            fields.blocks(1)?;
+            fields.map()?;
+        }
         op::METADATA_INDEX => {
             fields.skip(8 + 8)?;
             fields.blocks(1)?;
@@ -246,6 +250,17 @@ impl Fields<'_> {
     /// Texts, maps and lists have their length in bytes in front.
     fn blocks(&mut self, count: usize) -> Option<()> {
         (0..count).try_for_each(|_| self.block_of(1))
+    }
+
+    /// Pairs of texts.
+    fn map(&mut self) -> Option<()> {
+        let begin = self.at + 4;
+        self.blocks(1)?;
+        let mut pairs = Fields { content: self.content.get(begin..self.at)?, at: 0 };
+        while pairs.at < pairs.content.len() {
+            pairs.blocks(2)?;
+        }
+        Some(())
     }
 
     /// A list of elements of this many bytes.

@@ -211,6 +211,35 @@ fn millions_of_strange_records_in_a_chunk_are_one_sentence() {
 }
 
 #[test]
+fn a_text_inside_a_definition_that_says_it_has_gigabytes_takes_no_memory() {
+    let whole = file(Shape { checksums: false, ..PLAIN }, 0..10, 10);
+    // The map of the channel has one pair of empty texts, and the first one says that it has 2^31 bytes.
+    let (_, channel) =
+        records(&file(LOOSE, 0..1, 1)).into_iter().find(|(kind, _)| *kind == op::CHANNEL).unwrap();
+    let mut bytes = whole.clone();
+    let mut record = file(LOOSE, 0..1, 1)[channel].to_vec();
+    let size = record.len() - 9;
+    record[1..9].copy_from_slice(&(size as u64 + 8).to_le_bytes());
+    let map = record.len() - 4;
+    record[map..].copy_from_slice(&8_u32.to_le_bytes());
+    record.extend(0x8000_0000_u32.to_le_bytes());
+    record.extend(0_u32.to_le_bytes());
+    let chunk = chunks(&whole)[0].clone();
+    bytes.splice(chunk.start..chunk.start, record);
+    let before = peak_kb();
+    let (found, damage, _) = contents(&bytes);
+    assert_eq!((found.len(), damage.is_empty()), (10, false));
+    assert!(peak_kb() < before + 1_900_000);
+}
+
+/// The most address space this process had, kB.
+fn peak_kb() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap();
+    let line = status.lines().find(|line| line.starts_with("VmPeak")).unwrap();
+    line.split_whitespace().nth(1).unwrap().parse().unwrap()
+}
+
+#[test]
 fn wrong_magic_at_either_end_is_said_and_costs_nothing() {
     let whole = file(PLAIN, 0..200, 100);
     for at in (0..8).chain(whole.len() - 8..whole.len()) {
