@@ -56,6 +56,14 @@ struct Round {
     looked_around: Instant,
 }
 
+impl Round {
+    /// Lets the time of the recording go on to what the schedule says, up to the message that comes next.
+    fn advance(&mut self, now: Instant, next_ns: Option<u64>) {
+        let scheduled_ns = self.schedule.map_or(0, |schedule| schedule.time_ns(now));
+        self.now_ns = self.now_ns.max(scheduled_ns.min(next_ns.unwrap_or(scheduled_ns)));
+    }
+}
+
 impl Player<'_> {
     /// Sends everything, once or until the node is asked to end: by the clock, or in lockstep.
     pub(crate) fn play(
@@ -194,7 +202,7 @@ impl Player<'_> {
                 }
                 Mode::Paused => {
                     if !std::mem::replace(&mut paused, true) {
-                        round.now_ns = round.schedule.map_or(round.now_ns, |schedule| schedule.time_ns(now));
+                        round.advance(now, log_time_ns);
                     }
                     // What is due is counted anew from where the recording stands.
                     round.schedule = None;
@@ -218,7 +226,7 @@ impl Player<'_> {
                         self.progress.late(now.saturating_duration_since(due));
                         return Ok(true);
                     }
-                    round.now_ns = schedule.time_ns(now);
+                    round.advance(now, Some(log_time_ns));
                     (due - now).min(TURN)
                 }
             };
