@@ -11,11 +11,12 @@ mod stamps;
 mod topic;
 mod values;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::metadata::{self, Metadata};
+use crate::metadata::{self, Metadata, TopicMetadata};
 use crate::reader::Recording;
 use crate::topic::Topic;
 
@@ -24,6 +25,9 @@ pub use stamps::StampOrder;
 use topic::TopicCheck;
 pub use topic::{DefinitionState, Failures, TopicReport};
 
+/// Messages that any recording may have; a byte of its files may hold one more. A message has its own log time, which no
+/// compression says in less: more messages are a bomb.
+const MESSAGES_FOR_ANY_FILE: u64 = 1_000_000;
 /// Sentences about unreadable places that are kept; more are counted only.
 const MOST_SENTENCES: usize = 50;
 
@@ -140,12 +144,20 @@ impl Report {
             ));
         }
         let metadata = metadata_of(&self.path);
-        let announced = |topic: &Topic| metadata.as_ref().map_or(0, |metadata| count_in(metadata, topic));
-        let mut topics: Vec<_> =
-            recording.topics().iter().map(|found| TopicCheck::new(found, announced(&found.topic))).collect();
+        let announced = Announced::by(metadata.as_ref());
+        let mut topics: Vec<_> = recording
+            .topics()
+            .iter()
+            .map(|found| TopicCheck::new(found, announced.of(&found.topic)))
+            .collect();
+        let most = most_messages(&self.path);
         let mut stored = recording.stored_messages();
         while let Some(message) = stored.next_ref() {
             match message {
+                Ok(_) if self.message_count == most => {
+                    self.problem(too_many(&self.path, most));
+                    break;
+                }
                 Ok(message) => {
                     self.message_count += 1;
                     if let Some(topic) = topics.get_mut(message.topic) {
@@ -207,18 +219,42 @@ impl Report {
     }
 }
 
+/// How many messages of a recording are read.
+pub(crate) fn most_messages(path: &Path) -> u64 {
+    files_of(path).iter().map(|file| file.bytes).fold(MESSAGES_FOR_ANY_FILE, u64::saturating_add)
+}
+
+/// What to say of one that has more.
+pub(crate) fn too_many(path: &Path, most: u64) -> String {
+    format!(
+        "{}: more than {most} messages, which a recording of its size cannot have; the others are left out",
+        path.display()
+    )
+}
+
 /// `metadata.yaml`, when there is one that can be read.
 pub(crate) fn metadata_of(path: &Path) -> Option<Metadata> {
     path.is_dir().then(|| Metadata::load(path).ok().flatten()).flatten()
 }
 
-/// How many messages of a topic `metadata.yaml` knows of.
-pub(crate) fn count_in(metadata: &Metadata, topic: &Topic) -> u64 {
-    let entries = metadata.topics_with_message_count.iter();
-    let same = entries.filter(|entry| {
-        entry.topic_metadata.name == topic.name && entry.topic_metadata.type_name == topic.type_name
-    });
-    same.map(|entry| entry.message_count).sum()
+/// How many messages `metadata.yaml` knows of each topic, by name and type.
+pub(crate) struct Announced<'a>(BTreeMap<(&'a str, &'a str), u64>);
+
+impl<'a> Announced<'a> {
+    pub(crate) fn by(metadata: Option<&'a Metadata>) -> Self {
+        let mut counts = BTreeMap::new();
+        for entry in metadata.iter().flat_map(|metadata| &metadata.topics_with_message_count) {
+            let TopicMetadata { name, type_name, .. } = &entry.topic_metadata;
+            let count: &mut u64 = counts.entry((name.as_str(), type_name.as_str())).or_default();
+            *count = count.saturating_add(entry.message_count);
+        }
+        Self(counts)
+    }
+
+    /// 0 where it knows of none.
+    pub(crate) fn of(&self, topic: &Topic) -> u64 {
+        self.0.get(&(topic.name.as_str(), topic.type_name.as_str())).copied().unwrap_or(0)
+    }
 }
 
 /// The files of a directory, or the file itself; what cannot be listed is told by opening it.

@@ -163,9 +163,11 @@ impl Recording {
     }
 
     fn add(&mut self, file: RecordedFile, index: FileIndex) {
+        let names = self.topics.iter().enumerate();
+        let mut known = names.map(|(number, found)| (key(found), number)).collect();
         let mut topic_of_channel = BTreeMap::new();
         for (channel, topic) in index.topics {
-            topic_of_channel.insert(channel, self.add_topic(topic));
+            topic_of_channel.insert(channel, self.add_topic(&mut known, topic));
         }
         let number = self.files.len();
         self.blocks.extend(index.blocks.into_iter().map(|block| Located { file: number, block }));
@@ -175,22 +177,13 @@ impl Recording {
     }
 
     /// The place of a topic: channels of the same name and type, in any of the files, are one topic.
-    fn add_topic(&mut self, added: RecordedTopic) -> usize {
-        let same = |known: &RecordedTopic| {
-            known.topic.name == added.topic.name && known.topic.type_name == added.topic.type_name
-        };
-        match self.topics.iter().position(same) {
-            Some(place) => {
-                if let Some(known) = self.topics.get_mut(place) {
-                    known.message_count = known.message_count.saturating_add(added.message_count);
-                }
-                place
-            }
-            None => {
-                self.topics.push(added);
-                self.topics.len() - 1
-            }
+    fn add_topic(&mut self, known: &mut BTreeMap<(String, String), usize>, added: RecordedTopic) -> usize {
+        let place = *known.entry(key(&added)).or_insert(self.topics.len());
+        match self.topics.get_mut(place) {
+            Some(topic) => topic.message_count = topic.message_count.saturating_add(added.message_count),
+            None => self.topics.push(added),
         }
+        place
     }
 
     /// Some writers give hash and QoS in `metadata.yaml` alone.
@@ -207,6 +200,11 @@ impl Recording {
             }
         }
     }
+}
+
+/// What makes a topic another one.
+fn key(found: &RecordedTopic) -> (String, String) {
+    (found.topic.name.clone(), found.topic.type_name.clone())
 }
 
 impl<'a> MessageRef<'a> {

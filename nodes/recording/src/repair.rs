@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::check::as_text;
+use crate::check::{as_text, most_messages, too_many};
 use crate::error::Error;
 use crate::reader::Recording;
 use crate::writer::Writer;
@@ -111,9 +111,15 @@ pub fn repair(path: &Path, output: &Path, go_on: &dyn Fn() -> bool) -> Result<Re
     let mut problems = Problems::default();
     recording.damage().iter().for_each(|damage| problems.add(damage.to_string()));
     recording.metadata_disagreements().iter().for_each(|sentence| problems.add(sentence.clone()));
+    let most = most_messages(path);
     let mut stored = recording.stored_messages();
     while let Some(message) = stored.next_ref() {
         match message {
+            Ok(_) if tally.saved() == most => {
+                tally.unreadable_place();
+                problems.add(too_many(path, most));
+                break;
+            }
             Ok(message) => {
                 let Some(topic) = topics.get(message.topic) else { continue };
                 writer.copy(*topic, &message)?;

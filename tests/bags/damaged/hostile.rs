@@ -21,10 +21,17 @@ fn file(name: &'static str, bytes: Vec<u8>) -> Case {
     Case::file(name, Expected::Damaged, &[], 0, bytes)
 }
 
-/// The beginning of a whole file up to its first chunk, and `piece` as often as it fits behind it.
+/// The beginning of a whole file with its topics, and `piece` as often as it fits behind it.
 fn row_of(piece: impl Fn(usize) -> Vec<u8>) -> Vec<u8> {
     let (_, bytes) = whole::bytes();
-    let mut made = bytes[..chunks(&bytes)[0].begin].to_vec();
+    let first = chunks(&bytes)[0];
+    let mut made = bytes[..first.begin].to_vec();
+    let inside = records::inside(&bytes, first);
+    for definition in records::of_buffer(inside) {
+        if definition.opcode != op::MESSAGE {
+            made.extend(&inside[definition.begin..definition.end]);
+        }
+    }
     for number in 0.. {
         let piece = piece(number);
         if made.len() + piece.len() > SIZE {
@@ -45,7 +52,7 @@ fn rows() -> Vec<Case> {
         content.extend(time.to_le_bytes());
         record(op::MESSAGE, &content)
     };
-    let same_bytes = |byte: u8| [&mcap::MAGIC[..], &vec![byte; SIZE - 8]].concat();
+    let same_bytes = |byte: u8| [mcap::MAGIC, &vec![byte; SIZE - 8]].concat();
     let channel = |number: usize| {
         let mut content = (number as u16).to_le_bytes().to_vec();
         content.extend(0_u16.to_le_bytes());

@@ -1,7 +1,7 @@
 //! What was saved of each topic, and what was lost.
 
 use super::SavedTopic;
-use crate::check::count_in;
+use crate::check::Announced;
 use crate::error::Error;
 use crate::metadata::Metadata;
 use crate::reader::{MessageRef, Recording};
@@ -28,8 +28,9 @@ struct Counts {
 
 impl<'a> Tally<'a> {
     pub(super) fn new(recording: &'a Recording, metadata: Option<&Metadata>) -> Self {
+        let counted = Announced::by(metadata);
         let counts = recording.topics().iter().map(|found| {
-            let announced = metadata.map_or(0, |metadata| count_in(metadata, &found.topic));
+            let announced = counted.of(&found.topic);
             Counts { recorded: found.message_count.max(announced), saved: 0, checksum: 0 }
         });
         let announced = metadata.is_some_and(|metadata| metadata.message_count > 0);
