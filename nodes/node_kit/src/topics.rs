@@ -111,7 +111,8 @@ pub const CONTACT_LAW: Topic<ContactLaw> = Topic::new(topic::CONTACT_LAW, reliab
 /// The contact, one for each pose: deformation.
 pub const CONTACT_STATE: Topic<ContactState> = Topic::new(topic::CONTACT_STATE, reliable(1000));
 /// How far the surface is from rest: deformation, at `surface.rate`.
-pub const SURFACE_DISPLACEMENT: Topic<SurfaceDisplacement> = Topic::new(topic::SURFACE_DISPLACEMENT, reliable(10));
+pub const SURFACE_DISPLACEMENT: Topic<SurfaceDisplacement> =
+    Topic::new(topic::SURFACE_DISPLACEMENT, reliable(10));
 /// The rest surface: deformation, latched.
 pub const BODY_MESH: Topic<Mesh> = Topic::new(topic::BODY_MESH, latched(1));
 /// Messages on grasp, gripper and clutch of all devices that the model has taken into account since its start:

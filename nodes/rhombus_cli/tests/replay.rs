@@ -108,10 +108,22 @@ fn a_change_of_one_parameter_in_the_sixth_digit_is_found_and_may_be_tolerated() 
     let folder = tempfile::tempdir().unwrap();
     let golden = golden(folder.path(), "press");
     let set = "chains.normal_stiffness=[230.0, 580.001, 1240.0]";
-    let reports = ["r.svg", "r.xml", "r.md"].map(|name| folder.path().join(name).to_str().unwrap().to_owned());
+    let reports =
+        ["r.svg", "r.xml", "r.md"].map(|name| folder.path().join(name).to_str().unwrap().to_owned());
     let output = replay(
         &bag("press"),
-        &["--set", set, "--expect", &golden, "--plot", &reports[0], "--junit", &reports[1], "--markdown", &reports[2]],
+        &[
+            "--set",
+            set,
+            "--expect",
+            &golden,
+            "--plot",
+            &reports[0],
+            "--junit",
+            &reports[1],
+            "--markdown",
+            &reports[2],
+        ],
     );
     assert_eq!(code(&output), 1);
     assert!(said(&output).contains("/servo_cf: DIFFERENT"), "{}", said(&output));
@@ -162,7 +174,8 @@ fn poses_of_older_recordings_give_the_same_answers() {
             return vec![message.data.to_vec()];
         }
         let PoseStamped { header, pose } = decode(message.data).unwrap();
-        let mut transform = TransformStamped { header, child_frame_id: "tip".to_owned(), ..Default::default() };
+        let mut transform =
+            TransformStamped { header, child_frame_id: "tip".to_owned(), ..Default::default() };
         let p = pose.position;
         (transform.transform.translation.x, transform.transform.translation.y) = (p.x, p.y);
         transform.transform.translation.z = p.z;

@@ -22,7 +22,8 @@ pub struct Motors {
 impl Motors {
     /// Motors that are off. Without a watchdog they hold the last command for ever.
     pub fn new(watchdog: Option<Duration>, record: Record) -> Motors {
-        let mut motors = Motors { watchdog_ns: None, record, on: false, held: Wrench::ZERO, commanded_ns: 0, commands: 0 };
+        let mut motors =
+            Motors { watchdog_ns: None, record, on: false, held: Wrench::ZERO, commanded_ns: 0, commands: 0 };
         motors.set_watchdog(watchdog);
         motors
     }
