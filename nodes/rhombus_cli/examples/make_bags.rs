@@ -1,4 +1,5 @@
-//! Makes the recordings of tests/bags: `make_bags DIRECTORY`. The same bytes on every machine.
+//! Makes the recordings of tests/bags: `make_bags DIRECTORY`. The same bytes on every machine. With a number of seconds,
+//! `make_bags DIRECTORY 3600`, only DIRECTORY/session: a hand that slides to and fro in contact, to measure with.
 //!
 //! Poses at 1 kHz as a driver would send them, on the liver of config/liver.yaml (two_devices: config/two_hands.yaml): press,
 //! slide, grasp_and_pull with gripper, commanded grasp and clutch, two_devices, sensor_noise, dropouts.
@@ -28,9 +29,13 @@ const PROBE_RADIUS_M: f64 = 0.005;
 fn main() {
     let directory = std::env::args().nth(1).unwrap();
     let directory = Path::new(&directory);
+    let seconds: Option<u64> = std::env::args().nth(2).map(|text| text.parse().unwrap());
     let scene = Scene::from_file(Path::new("config/liver.yaml"), Reader::Everything).unwrap();
     let sites = sites(&scene.load_body().unwrap().body, 4);
     let (here, there) = (sites[0], sites[1]);
+    if let Some(seconds) = seconds {
+        return session(&directory.join("session"), seconds, &here, &there);
+    }
 
     let mut bag = Bag::create(&directory.join("press"));
     let hand = bag.device("", "device_base");
@@ -114,6 +119,19 @@ fn main() {
             // The same reading again, with the same stamp.
             bag.pose(&hand, ms, at);
         }
+    }
+    bag.close();
+}
+
+/// A hand in contact, from site to site and back in 8 s, 1 to 5 mm deep.
+fn session(path: &Path, seconds: u64, here: &Site, there: &Site) {
+    let mut bag = Bag::create(path);
+    let hand = bag.device("", "device_base");
+    for ms in 0..1000 * seconds {
+        let t_s = ms as f64 * 1e-3;
+        let way = 0.25 * (1.0 - cos(TAU * t_s / 8.0));
+        let depth_m = 0.003 + 0.002 * sin(TAU * t_s / 1.5);
+        bag.pose(&hand, ms, over(here, depth_m).lerp(over(there, depth_m), way));
     }
     bag.close();
 }
