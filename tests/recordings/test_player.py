@@ -84,6 +84,20 @@ def test_the_replay_offers_the_recorded_quality_of_service_and_ends_at_a_signal(
     assert program.closing_report()["messages"] < COUNT
 
 
+def test_the_first_pose_waits_for_as_many_readers_as_it_should(tmp_path, programs, remote, fixture_recording):
+    first = Ear(remote, {"measured_cp": PoseStamped})
+    program = programs(
+        player(tmp_path, fixture_recording, replay__topics=["measured_cp"], replay__rate=2.0,
+               replay__wait_for_subscribers=peer.TIMEOUT_S, replay__wait_for_readers=2).wait_ready()
+    )  # fmt: skip
+    remote.spin(1.0)
+    assert not first.heard
+    second = Ear(remote, {"measured_cp": PoseStamped})
+    remote.wait_for(lambda: program.process.poll() is not None, "the end of the replay")
+    remote.spin(0.2)
+    assert len(first.heard) == len(second.heard) == COUNT, program.log()
+
+
 def test_what_is_recorded_from_a_replay_is_the_recording(tmp_path, programs, fixture_recording, printed):
     topics = ["measured_cp", "servo_cf", "contact_state", "surface_displacement", "clutch", "gripper/measured_js", "grasp"]
     values = {"recording.directory": str(tmp_path), "recording.name": "again", "recording.topics": topics}

@@ -61,7 +61,7 @@ pub(crate) fn run(kit: &mut NodeKit, settings: &PlaySettings) -> anyhow::Result<
         (None, rate) => format!("at rate {rate}"),
     };
     kit.ready(&format!("playing {} topics of {} {how}", outlets.len(), settings.path.display()));
-    wait_for_subscribers(kit, &outlets, settings.wait_for_subscribers);
+    wait_for_subscribers(kit, &outlets, settings);
     check_types_in_graph(&node, &outlets)?;
 
     let progress = Progress::new(&recording, settings);
@@ -155,21 +155,25 @@ fn playback(settings: &PlaySettings, outlets: &[Outlet]) -> Playback {
     }
 }
 
-/// Waits until every reliable topic has a subscriber, at most for `longest`.
-fn wait_for_subscribers(kit: &mut NodeKit, outlets: &[Outlet], longest: Duration) {
+/// Waits until every reliable topic has a subscriber and those of poses as many as they should, for as long as the
+/// parameters say.
+fn wait_for_subscribers(kit: &mut NodeKit, outlets: &[Outlet], settings: &PlaySettings) {
+    let longest = settings.wait_for_subscribers;
     let end = Instant::now() + longest;
-    let lonely = || -> Vec<&str> {
+    let lonely = || -> Vec<String> {
         let reliable = outlets.iter().filter(|outlet| outlet.is_reliable);
-        reliable
-            .filter(|outlet| outlet.publisher.get_inter_process_subscription_count().unwrap_or(0) == 0)
-            .map(|outlet| outlet.target.as_str())
-            .collect()
+        let counted = reliable.map(|outlet| {
+            let wanted = if outlet.content.is_pose() { settings.pose_readers } else { 1 };
+            (outlet, outlet.publisher.get_inter_process_subscription_count().unwrap_or(0), wanted)
+        });
+        let missing = counted.filter(|(_, found, wanted)| found < wanted);
+        missing.map(|(outlet, found, wanted)| format!("{} ({found} of {wanted})", outlet.target)).collect()
     };
     while Instant::now() < end && kit.is_running() && !lonely().is_empty() {
         kit.spin_once(TURN.min(end.saturating_duration_since(Instant::now())));
     }
     if !longest.is_zero() && !lonely().is_empty() {
-        kit.log().warn(&format!("no subscriber after {longest:?} for {}", lonely().join(", ")));
+        kit.log().warn(&format!("too few subscribers after {longest:?}: {}", lonely().join(", ")));
     }
 }
 

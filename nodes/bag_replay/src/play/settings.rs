@@ -36,6 +36,8 @@ pub(crate) struct PlaySettings {
     pub(crate) lockstep: Option<Duration>,
     /// Longest wait for subscribers before the first message.
     pub(crate) wait_for_subscribers: Duration,
+    /// Subscriptions of a topic of poses that are waited for.
+    pub(crate) pose_readers: usize,
     /// Sub-namespaces of the session's devices.
     pub(crate) devices: Vec<String>,
 }
@@ -84,6 +86,8 @@ impl PlaySettings {
                 false => None,
             },
             wait_for_subscribers: seconds("replay.wait_for_subscribers")?,
+            pose_readers: usize::try_from(parameters.integer("replay.wait_for_readers")?)
+                .context("replay.wait_for_readers")?,
             devices: parameters.texts("devices")?.to_vec(),
         })
     }

@@ -150,6 +150,17 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         help: "Longest wait, before the first message, until every played reliable topic has a subscriber; 0 does not wait.",
     },
     ParameterSpec {
+        name: "replay.wait_for_readers",
+        kind: Kind::Integer,
+        unit: "",
+        default: DefaultValue::Integer(1),
+        check: Check::Within(1.0, 100.0),
+        length: Length::Any,
+        live: false,
+        owners: RECORDER,
+        help: "Subscriptions that replay.wait_for_subscribers waits for on a topic of poses, so that none of them misses the first.",
+    },
+    ParameterSpec {
         name: "replay.remap",
         kind: Kind::StringArray,
         unit: "",
