@@ -96,7 +96,10 @@ impl Scene {
         plan.threads = vec![
             (Node::HapticDevice, vec!["node", "motor_loop", "publisher"]),
             (Node::Deformation, vec!["node"]),
-            (Node::Visualization, vec!["node"]),
+            (
+                Node::Visualization,
+                if self.viewer.enabled { vec!["node", "viewer"] } else { vec!["node"] },
+            ),
         ];
         Ok(plan)
     }
@@ -217,6 +220,12 @@ impl Scene {
     }
 
     fn plan_viewer(&self, plan: &mut Plan) {
+        if self.viewer.enabled {
+            let what = format!("page for browsers, {} Hz while one shows it", self.viewer.rate_hz);
+            plan.build("page", Node::Visualization, what, None);
+        } else {
+            plan.leave_out("page", "viewer.enabled is false");
+        }
         if !self.has_markers() {
             plan.leave_out("viewer", "visualization.rate is 0");
             plan.leave_out("drawn chains", "no viewer");

@@ -7,7 +7,7 @@ use rhombus_chain::{ContactLaw, ParameterError, Pose, SurfaceParameters, Tissue,
 use crate::mesh_source::stiffness_map;
 use crate::settings::{
     BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
-    ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, VisualizationSettings,
+    ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, ViewerSettings, VisualizationSettings,
 };
 use crate::{ChainSettings, Parameters, Problem, Reader, SceneError, Value};
 
@@ -34,6 +34,8 @@ pub struct Scene {
     pub simulated: SimulatedSettings,
     /// What RViz shows.
     pub visualization: VisualizationSettings,
+    /// What browsers show.
+    pub viewer: ViewerSettings,
     /// What is recorded.
     pub recording: RecordingSettings,
     /// What is replayed.
@@ -134,6 +136,14 @@ impl Scene {
                 displacement_scale: p.double("visualization.displacement_scale")?,
                 force_scale_m_per_n: p.double("visualization.force_scale")?,
                 show_chains: p.bool("visualization.show_chains")?,
+            },
+            viewer: ViewerSettings {
+                enabled: p.bool("viewer.enabled")?,
+                address: p.text("viewer.address")?.to_owned(),
+                // The schema has checked both ranges.
+                port: u16::try_from(p.integer("viewer.port")?).unwrap_or(0),
+                rate_hz: p.double("viewer.rate")?,
+                max_pages: usize::try_from(p.integer("viewer.max_pages")?).unwrap_or(1),
             },
             recording: RecordingSettings {
                 directory: PathBuf::from(p.text("recording.directory")?),

@@ -14,6 +14,7 @@ mod safety;
 mod session;
 mod simulated;
 mod surface;
+mod viewer;
 mod visualization;
 
 pub use check::{Check, Length};
@@ -27,7 +28,7 @@ pub enum Node {
     HapticDevice,
     /// `deformation`: the model.
     Deformation,
-    /// `visualization`: what RViz shows.
+    /// `visualization`: what RViz and browsers show.
     Visualization,
     /// `bag_replay`: recordings.
     BagReplay,
@@ -179,6 +180,7 @@ pub fn schema() -> impl Iterator<Item = &'static ParameterSpec> {
         backends::PARAMETERS,
         simulated::PARAMETERS,
         visualization::PARAMETERS,
+        viewer::PARAMETERS,
         recording::PARAMETERS,
     ]
     .into_iter()

@@ -41,7 +41,7 @@ impl Scene {
 
     /// Where the parameters put body and devices in the scene. With several devices `device.scene_from_device` is the
     /// place of all of them only when somebody says so; otherwise each driver says where its own stands, on `/tf_static`.
-    fn frames(&self, namespace: &str) -> FrameTree {
+    pub fn frames(&self, namespace: &str) -> FrameTree {
         let scene_frame = frame_id(namespace, &self.session.scene_frame_id);
         let mut frames = FrameTree::new();
         let body_frame = frame_id(namespace, &self.body.frame_id);

@@ -153,6 +153,21 @@ pub struct VisualizationSettings {
     pub show_chains: bool,
 }
 
+/// `viewer.*`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewerSettings {
+    /// Serve the page.
+    pub enabled: bool,
+    /// Address or host name to listen at.
+    pub address: String,
+    /// TCP port; 0 takes any that is free.
+    pub port: u16,
+    /// Updates to each page, Hz.
+    pub rate_hz: f64,
+    /// Pages at once.
+    pub max_pages: usize,
+}
+
 /// `recording.*`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordingSettings {

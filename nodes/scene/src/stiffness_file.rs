@@ -17,12 +17,32 @@ const ACCEPTED: &str = "accepted: a line \"factor\", then one number from 0.001 
 /// The file cannot be read, has another header, a line that is no number from 0.001 to 1000, or another number of lines than
 /// the mesh has vertices; the error names the line.
 pub fn read_stiffness_map(path: &Path, mesh: &SurfaceMesh) -> Result<StiffnessMap, SceneError> {
-    let error = |line: Option<usize>, problem: Problem| SceneError {
-        file: path.display().to_string(),
-        line,
-        key: Some(KEY.to_owned()),
-        problem: Box::new(problem),
-    };
+    let (factors, lines) = factors_and_lines(path)?;
+    StiffnessMap::new(factors, mesh).map_err(|fault| {
+        let line = match fault {
+            StiffnessMapError::Factor { vertex, .. } => lines.get(vertex).copied(),
+            StiffnessMapError::Count { .. } | StiffnessMapError::OtherMesh { .. } => None,
+        };
+        error(path, line, Problem::Stiffness(fault.to_string()))
+    })
+}
+
+/// The numbers of such a file, for a picture: neither their range nor their count is checked.
+///
+/// # Errors
+/// The file cannot be read, has another header, or a line that is no number; the error names the line.
+pub fn read_stiffness_factors(path: &Path) -> Result<Vec<f64>, SceneError> {
+    Ok(factors_and_lines(path)?.0)
+}
+
+fn error(path: &Path, line: Option<usize>, problem: Problem) -> SceneError {
+    let file = path.display().to_string();
+    SceneError { file, line, key: Some(KEY.to_owned()), problem: Box::new(problem) }
+}
+
+/// Each number and the line it stands in.
+fn factors_and_lines(path: &Path) -> Result<(Vec<f64>, Vec<usize>), SceneError> {
+    let error = |line, problem| error(path, line, problem);
     let bytes = std::fs::read(path).map_err(|fault| error(None, Problem::Unreadable(fault)))?;
     let text = String::from_utf8_lossy(&bytes);
     let mut rows = rows(&text);
@@ -44,13 +64,7 @@ pub fn read_stiffness_map(path: &Path, mesh: &SurfaceMesh) -> Result<StiffnessMa
         factors.push(number);
         lines.push(line);
     }
-    StiffnessMap::new(factors, mesh).map_err(|fault| {
-        let line = match fault {
-            StiffnessMapError::Factor { vertex, .. } => lines.get(vertex).copied(),
-            StiffnessMapError::Count { .. } | StiffnessMapError::OtherMesh { .. } => None,
-        };
-        error(line, Problem::Stiffness(fault.to_string()))
-    })
+    Ok((factors, lines))
 }
 
 /// What is neither comment nor empty, with its line counted from 1.

@@ -35,7 +35,7 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         check: Check::Any,
         length: Length::Any,
         live: false,
-        owners: &[Node::Deformation],
+        owners: &[Node::Deformation, Node::Visualization],
         help: "CSV file with a factor on the contact law for each vertex of the mesh (path as body.mesh); \"\": the law is the same everywhere.",
     },
     ParameterSpec {

@@ -21,7 +21,7 @@ pub enum Check {
     OneOfNumbers(&'static [f64]),
     /// One of these texts.
     OneOf(&'static [&'static str]),
-    /// A frame id: not empty, no white space.
+    /// A frame id or a host name: not empty, no white space.
     FrameId,
     /// `x y z qx qy qz qw`: finite, quaternion norm within 1e-3 of 1.
     Pose,
