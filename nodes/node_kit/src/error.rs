@@ -34,10 +34,10 @@ pub enum StartError {
         /// What rcl says.
         source: r2r::Error,
     },
-    /// rcl refuses a publisher, subscription or service.
+    /// rcl refuses a publisher, subscription, service or client.
     #[error("{what} {name} cannot be created: {source}")]
     Endpoint {
-        /// "publisher", "subscription" or "service".
+        /// "publisher", "subscription", "service" or "client".
         what: &'static str,
         /// Name before remapping.
         name: String,

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use r2r::builtin_interfaces::msg::Time;
 use r2r::rosgraph_msgs::msg::Clock;
 use r2r::{QosProfile, WrappedServiceTypeSupport, WrappedTypesupport};
 use scene::{Node, Parameters, Value};
@@ -140,6 +141,11 @@ impl NodeKit {
         &self.log
     }
 
+    /// The time that stamps have: system time, or `/clock` with `use_sim_time`.
+    pub fn now(&self) -> Time {
+        self.clock.now()
+    }
+
     /// Whether the process was asked to end; clones can be watched from other threads.
     pub fn shutdown(&self) -> &Shutdown {
         &self.shutdown
@@ -231,6 +237,21 @@ impl NodeKit {
         Ok(full_names.collect())
     }
 
+    /// Whether the topic is known to the graph: some node publishes it or subscribes to it. As
+    /// [`NodeKit::publishers_of`], fit for a few times a second.
+    ///
+    /// # Errors
+    /// What rcl says.
+    pub fn is_in_graph<M>(&self, topic: &Topic<M>, sub_namespace: &str) -> Result<bool, r2r::Error> {
+        let name = self.arguments.topic_in_graph(&topic.name_in(sub_namespace), &self.full_name);
+        Ok(self.node.get_topic_names_and_types()?.contains_key(&name))
+    }
+
+    /// Take a publisher out of the graph. Clones of it stop working.
+    pub fn unpublish<M: WrappedTypesupport + 'static>(&mut self, publisher: Publisher<M>) {
+        self.node.destroy_publisher(publisher.into_inner());
+    }
+
     /// Subscribe to serialized messages (CDR) of a type given as "package/msg/Name", for recording.
     ///
     /// # Errors
@@ -296,6 +317,11 @@ impl NodeKit {
     /// Say that everything is set up: a line "ready: ..." that session scripts wait for, whatever the log level is.
     pub fn ready(&self, text: &str) {
         self.log.announce(&format!("ready: {text}"));
+    }
+
+    /// Say something that a person at the terminal needs, whatever the log level is.
+    pub fn announce(&self, text: &str) {
+        self.log.announce(text);
     }
 
     /// Say what the node has done: a line "closing report: {json}" that session scripts read, whatever the log level.

@@ -28,7 +28,10 @@ pub use error::{PublishError, StartError};
 pub use histogram::Histogram;
 pub use kit::NodeKit;
 pub use log::{Log, Throttle};
-pub use parameters::{Change, TogetherCheck};
+pub use parameters::{
+    Change, ParameterClient, ParameterListener, ParameterNews, Pending, RemoteError, RemoteParameter,
+    TogetherCheck,
+};
 pub use run::run;
 pub use scene::Node;
 pub use security::SecurityValueError;

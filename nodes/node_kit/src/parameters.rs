@@ -1,5 +1,6 @@
-//! The node's parameters: read from rcl, checked by the scene's schema, served to the graph.
+//! The node's parameters: read from rcl, checked by the scene's schema, served to the graph; those of other nodes.
 
+mod client;
 mod services;
 mod store;
 mod values;
@@ -9,6 +10,7 @@ use scene::{Node, Origin, Parameters, Reader, Value};
 use crate::StartError;
 use crate::arguments::RosArguments;
 
+pub use client::{ParameterClient, ParameterListener, ParameterNews, Pending, RemoteError, RemoteParameter};
 pub(crate) use services::ParameterServices;
 pub(crate) use store::Store;
 pub use store::{Change, TogetherCheck};

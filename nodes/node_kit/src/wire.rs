@@ -36,6 +36,10 @@ impl<M: WrappedTypesupport + 'static> Publisher<M> {
         self.publisher.publish(message).map_err(|source| PublishError { topic: self.topic.clone(), source })
     }
 
+    pub(crate) fn into_inner(self) -> r2r::Publisher<M> {
+        self.publisher
+    }
+
     /// Number of subscriptions in other processes that this publisher has found.
     pub fn readers(&self) -> usize {
         self.publisher.get_inter_process_subscription_count().unwrap_or(0)

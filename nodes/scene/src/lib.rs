@@ -68,7 +68,8 @@ pub use sections::Reader;
 pub use session::{LoadedSession, topology_version};
 pub use settings::{
     BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
-    ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, ViewerSettings, VisualizationSettings,
+    ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, ViewerSettings,
+    VisualizationSettings,
 };
 pub use sites::{Site, sites};
 pub use stiffness_file::{StiffnessFile, read_stiffness_factors, read_stiffness_map};

@@ -96,10 +96,7 @@ impl Scene {
         plan.threads = vec![
             (Node::HapticDevice, vec!["node", "motor_loop", "publisher"]),
             (Node::Deformation, vec!["node"]),
-            (
-                Node::Visualization,
-                if self.viewer.enabled { vec!["node", "viewer"] } else { vec!["node"] },
-            ),
+            (Node::Visualization, if self.viewer.enabled { vec!["node", "viewer"] } else { vec!["node"] }),
         ];
         Ok(plan)
     }

@@ -7,7 +7,8 @@ use rhombus_chain::{ContactLaw, ParameterError, Pose, SurfaceParameters, Tissue,
 use crate::mesh_source::stiffness_map;
 use crate::settings::{
     BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
-    ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, ViewerSettings, VisualizationSettings,
+    ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, ViewerSettings,
+    VisualizationSettings,
 };
 use crate::{ChainSettings, Parameters, Problem, Reader, SceneError, Value};
 

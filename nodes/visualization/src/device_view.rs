@@ -25,6 +25,12 @@ pub(crate) struct Contact {
     pub(crate) normal: DVec3,
     /// Positive into the body.
     pub(crate) depth_m: f64,
+    /// On the hand, along the normal.
+    pub(crate) force_n: f64,
+    /// Change of force for each metre of depth.
+    pub(crate) stiffness_n_per_m: f64,
+    /// Stamp of the pose that it was computed from, ns.
+    pub(crate) stamp_ns: i64,
 }
 
 /// What the probe does with the surface.
@@ -41,6 +47,8 @@ impl Contact {
             is_drawable(self.proxy_m)
                 && is_drawable(self.normal * self.depth_m)
                 && self.normal.is_normalized()
+                && self.force_n.is_finite()
+                && self.stiffness_n_per_m.is_finite()
         };
         !self.frame_id.is_empty() && is_drawable(self.probe_m) && (self.mode == Mode::None || touch())
     }
@@ -128,6 +136,24 @@ impl DeviceView {
         self.contact(now).filter(|contact| contact.mode != Mode::None)
     }
 
+    /// When the newest contact came, however old it is.
+    #[cfg(feature = "viewer")]
+    pub(crate) fn contact_heard(&self) -> Option<Instant> {
+        self.contact.as_ref().map(|(when, _)| *when)
+    }
+
+    /// When the newest pose came, however old it is.
+    #[cfg(feature = "viewer")]
+    pub(crate) fn pose_heard(&self) -> Option<Instant> {
+        self.pose.as_ref().map(|(when, _)| *when)
+    }
+
+    /// The device's own pose, unless it is old.
+    #[cfg(feature = "viewer")]
+    pub(crate) fn pose(&self, now: Instant) -> Option<&InFrame<Pose>> {
+        fresh(&self.pose, now)
+    }
+
     /// The force on the hand, unless it is old.
     pub(crate) fn force_n(&self, now: Instant) -> Option<&InFrame<DVec3>> {
         fresh(&self.force_n, now)
@@ -163,6 +189,9 @@ mod tests {
             proxy_m: DVec3::new(0.0, 0.0, 0.1),
             normal: DVec3::Z,
             depth_m: 0.004,
+            force_n: 0.4,
+            stiffness_n_per_m: 100.0,
+            stamp_ns: 0,
         }
     }
 
@@ -183,6 +212,8 @@ mod tests {
             Contact { normal: DVec3::ZERO, ..contact(Mode::Touch) },
             Contact { depth_m: f64::NAN, ..contact(Mode::Grasp) },
             Contact { depth_m: 1e9, ..contact(Mode::Grasp) },
+            Contact { force_n: f64::NAN, ..contact(Mode::Touch) },
+            Contact { stiffness_n_per_m: f64::INFINITY, ..contact(Mode::Touch) },
             Contact { frame_id: String::new(), ..contact(Mode::None) },
         ];
         for wrong in wrong {

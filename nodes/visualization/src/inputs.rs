@@ -46,6 +46,8 @@ struct Surface {
     surface: BodySurface,
     topology_version: u32,
     revision: u64,
+    /// Stamp of the newest displacement, ns.
+    stamp_ns: i64,
 }
 
 struct DeviceInputs {
@@ -100,11 +102,14 @@ impl Inputs {
         }
         // A displacement that comes before its mesh waits for it.
         if let Some(surface) = &mut self.surface
-            && let Some((_, SurfaceDisplacement { topology_version, vertex, displacement, .. })) =
+            && let Some((_, SurfaceDisplacement { header, topology_version, vertex, displacement })) =
                 self.displacement.take()
         {
             match surface.surface.displace(topology_version, vertex, displacement) {
-                Ok(changed) => surface.revision += u64::from(changed),
+                Ok(changed) => {
+                    surface.revision += u64::from(changed);
+                    surface.stamp_ns = convert::stamp_ns(&header.stamp);
+                }
                 Err(error) => {
                     match error {
                         DisplacementError::OtherMesh { .. } => self.not_drawn.other_mesh += 1,
@@ -124,7 +129,7 @@ impl Inputs {
         match messages::surface(mesh, topology_version) {
             Ok(surface) => {
                 let revision = self.surface.as_ref().map_or(0, |before| before.revision + 1);
-                self.surface = Some(Surface { surface, topology_version, revision });
+                self.surface = Some(Surface { surface, topology_version, revision, stamp_ns: 0 });
             }
             Err(error) => {
                 self.not_drawn.not_drawable += 1;
@@ -150,6 +155,12 @@ impl Inputs {
     /// The surface and a number that grows when it changes.
     pub(crate) fn surface(&self) -> Option<(&BodySurface, u64)> {
         self.surface.as_ref().map(|surface| (&surface.surface, surface.revision))
+    }
+
+    /// Stamp of the newest displacement that is drawn, ns.
+    #[cfg(feature = "viewer")]
+    pub(crate) fn surface_stamp_ns(&self) -> i64 {
+        self.surface.as_ref().map_or(0, |surface| surface.stamp_ns)
     }
 
     /// One for each device.

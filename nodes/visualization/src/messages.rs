@@ -49,6 +49,9 @@ pub(crate) fn contact(state: &ContactState) -> Contact {
         proxy_m: convert::dvec3(&state.proxy),
         normal: convert::dvec3_of_vector(&state.normal),
         depth_m: state.depth,
+        force_n: state.force,
+        stiffness_n_per_m: state.stiffness,
+        stamp_ns: convert::stamp_ns(&state.header.stamp),
     }
 }
 

@@ -174,6 +174,9 @@ mod tests {
             proxy_m: DVec3::ZERO,
             normal: DVec3::Z,
             depth_m: 0.003,
+            force_n: 0.3,
+            stiffness_n_per_m: 100.0,
+            stamp_ns: 0,
         };
         device.hear_contact(now, contact).unwrap();
         let force_n = if mode == Mode::None { DVec3::ZERO } else { DVec3::Z };

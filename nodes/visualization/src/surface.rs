@@ -3,6 +3,8 @@
 use glam::DVec3;
 use thiserror::Error;
 
+use crate::drawing::is_drawable;
+
 /// A rest surface and how far it is from rest now.
 #[derive(Debug)]
 pub(crate) struct BodySurface {
@@ -21,7 +23,7 @@ pub(crate) struct BodySurface {
 pub(crate) enum MeshError {
     #[error("a mesh of {vertices} vertices and {triangles} triangles is no surface")]
     Empty { vertices: usize, triangles: usize },
-    #[error("vertex {vertex} is {position}; finite numbers are accepted")]
+    #[error("vertex {vertex} is {position}; finite numbers, and not beyond 1000 km, are accepted")]
     NotFinite { vertex: usize, position: DVec3 },
     #[error("triangle {triangle} names vertex {vertex}; the mesh has {vertices}")]
     NoSuchVertex { triangle: usize, vertex: u32, vertices: usize },
@@ -52,7 +54,7 @@ impl BodySurface {
             return Err(MeshError::Empty { vertices, triangles: triangles.len() });
         }
         if let Some((vertex, position)) =
-            rest_m.iter().enumerate().find(|(_, position)| !position.is_finite())
+            rest_m.iter().enumerate().find(|(_, position)| !is_drawable(**position))
         {
             return Err(MeshError::NotFinite { vertex, position: *position });
         }
@@ -121,6 +123,24 @@ impl BodySurface {
             .iter()
             .zip(&self.displacement_m)
             .map(move |(rest, displacement)| (*rest + *displacement * scale, displacement.length()))
+    }
+
+    /// Positions at rest, m.
+    #[cfg(feature = "viewer")]
+    pub(crate) fn rest_m(&self) -> &[DVec3] {
+        &self.rest_m
+    }
+
+    /// CRC-32 of the mesh message.
+    #[cfg(feature = "viewer")]
+    pub(crate) fn topology_version(&self) -> u32 {
+        self.topology_version
+    }
+
+    /// The vertices that are not at rest, and x, y and z of the displacement of each, m.
+    #[cfg(feature = "viewer")]
+    pub(crate) fn displaced(&self) -> (&[u32], &[f32]) {
+        (&self.moved, &self.moved_by_m)
     }
 
     /// Number of vertices that are not at rest.

@@ -1,0 +1,241 @@
+//! How the session is: what its nodes say of themselves, the state of its devices, and who publishes what.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::{Duration, Instant};
+
+use node_kit::{Inbox, NodeKit, StartError, topics};
+use r2r::crtk_msgs::msg::OperatingState;
+use r2r::diagnostic_msgs::msg::{DiagnosticArray, DiagnosticStatus};
+
+use super::protocol::{DeviceHealth, NodeHealth};
+use crate::device_view::DeviceView;
+
+/// Nodes say how they are once a second; one that has said nothing for this long does not.
+const STALE_AFTER: Duration = Duration::from_millis(2500);
+/// A driver whose last pose is older than this is not alive, and a model that has not answered poses for so long is
+/// silent: a process that was killed stays in the graph for seconds.
+const SILENT_AFTER: Duration = Duration::from_millis(500);
+/// More statuses than this are no session.
+const MAX_STATUSES: usize = 64;
+/// Of one status as many values are shown, each text no longer than this.
+const MAX_VALUES: usize = 64;
+const MAX_TEXT: usize = 400;
+
+/// What was heard of the session's health.
+pub(crate) struct Health {
+    prefix: String,
+    diagnostics: Inbox<DiagnosticArray>,
+    statuses: BTreeMap<String, (Instant, NodeHealth)>,
+    devices: Vec<Device>,
+    graph: Graph,
+}
+
+struct Device {
+    name: String,
+    states: Inbox<OperatingState>,
+    state: Option<OperatingState>,
+}
+
+/// Who publishes what a page shows.
+#[derive(Clone, Debug, Default)]
+struct Graph {
+    counts: BTreeMap<&'static str, usize>,
+    /// Publishers of each device's contact.
+    contacts: Vec<usize>,
+    /// Publishers of each device's pose.
+    poses: Vec<usize>,
+    nodes: BTreeSet<String>,
+}
+
+/// A device with what was heard of it, publishers of its pose, whether it takes targets, and a frame without a place.
+type DeviceFacts<'a> = (((&'a Device, &'a DeviceView), usize), (bool, Option<String>));
+
+impl Health {
+    /// Subscribe.
+    pub(crate) fn new(kit: &mut NodeKit, devices: &[String]) -> Result<Health, StartError> {
+        let devices: Result<Vec<Device>, StartError> = devices
+            .iter()
+            .map(|name| {
+                let states = kit.subscribe(&topics::OPERATING_STATE, name)?;
+                Ok(Device { name: name.clone(), states, state: None })
+            })
+            .collect();
+        Ok(Health {
+            prefix: format!("{}/", kit.namespace().trim_end_matches('/')),
+            diagnostics: kit.subscribe(&topics::DIAGNOSTICS, "")?,
+            statuses: BTreeMap::new(),
+            devices: devices?,
+            graph: Graph::default(),
+        })
+    }
+
+    /// Take over what arrived.
+    pub(crate) fn hear(&mut self, now: Instant) {
+        while let Some(array) = self.diagnostics.take() {
+            for status in &array.status {
+                self.hear_status(now, status);
+            }
+        }
+        for device in &mut self.devices {
+            if let Some(state) = device.states.newest() {
+                device.state = Some(state);
+            }
+        }
+    }
+
+    fn hear_status(&mut self, now: Instant, status: &DiagnosticStatus) {
+        let known = self.statuses.contains_key(&status.name);
+        if status.name.starts_with(&self.prefix) && (known || self.statuses.len() < MAX_STATUSES) {
+            self.statuses.insert(status.name.clone(), (now, health(status)));
+        }
+    }
+
+    /// Ask the graph who publishes; a few times a second.
+    pub(crate) fn look_around(&mut self, kit: &NodeKit) -> Result<(), r2r::Error> {
+        let mut graph = Graph::default();
+        let model = [
+            ("body_mesh", kit.publishers_of(&topics::BODY_MESH, "")?),
+            ("surface_displacement", kit.publishers_of(&topics::SURFACE_DISPLACEMENT, "")?),
+        ];
+        for (topic, publishers) in model {
+            graph.counts.insert(topic, publishers.len());
+            graph.nodes.extend(publishers);
+        }
+        for device in &self.devices {
+            let contacts = kit.publishers_of(&topics::CONTACT_STATE, &device.name)?;
+            let poses = kit.publishers_of(&topics::MEASURED_CP, &device.name)?;
+            graph.contacts.push(contacts.len());
+            graph.poses.push(poses.len());
+            graph.nodes.extend(contacts);
+            graph.nodes.extend(poses);
+        }
+        graph.nodes.insert(kit.full_name().to_owned());
+        self.graph = graph;
+        Ok(())
+    }
+
+    /// Full names of the nodes of the session, as far as they are there.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = &str> {
+        self.graph.nodes.iter().map(String::as_str).filter(|name| name.starts_with('/'))
+    }
+
+    /// What each node says, and whether it still does.
+    pub(crate) fn statuses(&self, now: Instant) -> Vec<NodeHealth> {
+        let fresh = |(when, status): &(Instant, NodeHealth)| {
+            let mut status = status.clone();
+            if now.duration_since(*when) > STALE_AFTER {
+                status.level = "stale";
+            }
+            status
+        };
+        self.statuses.values().map(fresh).collect()
+    }
+
+    /// Number of publishers of each topic of the model. A model that leaves poses unanswered has none.
+    pub(crate) fn publishers(&self, now: Instant, views: &[DeviceView]) -> BTreeMap<&'static str, usize> {
+        let age = |heard: Option<Instant>| heard.map(|when| now.duration_since(when));
+        let speaks = |view: &DeviceView| {
+            let poses_come = age(view.pose_heard()).is_some_and(|age| age < SILENT_AFTER);
+            !poses_come || age(view.contact_heard()).is_none_or(|age| age < SILENT_AFTER)
+        };
+        let contacts = self.graph.contacts.iter().zip(views);
+        let heard = contacts.filter(|(_, view)| speaks(view)).map(|(count, _)| count).sum();
+        let is_silent = !views.is_empty() && !views.iter().any(speaks);
+        let mut counts = self.graph.counts.clone();
+        if is_silent {
+            counts.values_mut().for_each(|count| *count = 0);
+        }
+        counts.insert("contact_state", heard);
+        counts
+    }
+
+    /// State of each device; `pointers` and `unplaced` have one entry for each.
+    pub(crate) fn devices(
+        &self,
+        now: Instant,
+        views: &[DeviceView],
+        pointers: &[bool],
+        unplaced: Vec<Option<String>>,
+    ) -> Vec<DeviceHealth> {
+        let poses = self.graph.poses.iter().copied().chain(std::iter::repeat(0));
+        let devices = self.devices.iter().zip(views).zip(poses);
+        let health = |(((device, view), publishers), (pointer, unplaced_frame)): DeviceFacts<'_>| {
+            let age = view.pose_heard().map(|when| now.duration_since(when));
+            let state = device.state.as_ref();
+            DeviceHealth {
+                name: device.name.clone(),
+                operating_state: state.map(|state| state.state.clone()),
+                homed: state.is_some_and(|state| state.is_homed),
+                busy: state.is_some_and(|state| state.is_busy),
+                pointer,
+                pose_age_s: age.map(|age| age.as_secs_f64()),
+                alive: publishers > 0 && age.is_some_and(|age| age < SILENT_AFTER),
+                unplaced_frame,
+            }
+        };
+        devices.zip(pointers.iter().copied().zip(unplaced)).map(health).collect()
+    }
+
+    /// Poses a second that each device's driver counts, Hz; where it says nothing, those that the model counts.
+    pub(crate) fn pose_rates_hz(&self, now: Instant) -> Vec<Option<f32>> {
+        let fresh = || {
+            let is_fresh = move |when: &Instant| now.duration_since(*when) <= STALE_AFTER;
+            self.statuses.values().filter(move |(when, _)| is_fresh(when)).map(|(_, status)| status)
+        };
+        let number = |status: &NodeHealth, key: &str| {
+            status.values.get(key)?.parse::<f32>().ok().filter(|number| number.is_finite())
+        };
+        let rate = |device: &Device| {
+            let namespace = format!("{}{}", self.prefix, device.name);
+            let namespace = namespace.trim_end_matches('/');
+            let is_driver =
+                |status: &&NodeHealth| status.name.rsplit_once('/').is_some_and(|(of, _)| of == namespace);
+            let subject = if device.name.is_empty() { "device" } else { &device.name };
+            let subject = format!(": {subject}");
+            let driver = fresh().filter(is_driver).find_map(|status| number(status, "pose_rate_hz"));
+            driver.or_else(|| {
+                fresh()
+                    .filter(|status| status.name.ends_with(&subject))
+                    .find_map(|status| number(status, "rate_hz"))
+            })
+        };
+        self.devices.iter().map(rate).collect()
+    }
+}
+
+fn health(status: &DiagnosticStatus) -> NodeHealth {
+    let shortened = |text: &str| text.chars().take(MAX_TEXT).collect::<String>();
+    let values = status.values.iter().take(MAX_VALUES);
+    NodeHealth {
+        name: shortened(&status.name),
+        level: match status.level {
+            0 => "ok",
+            1 => "warn",
+            2 => "error",
+            _ => "stale",
+        },
+        summary: shortened(&status.message),
+        values: values.map(|entry| (shortened(&entry.key), shortened(&entry.value))).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use r2r::diagnostic_msgs::msg::KeyValue;
+
+    #[test]
+    fn a_status_is_told_by_node_and_subject_and_cannot_be_endless() {
+        let values = vec![KeyValue { key: "rate_hz".to_owned(), value: "9".repeat(1000) }; 100];
+        let status = DiagnosticStatus {
+            level: 1,
+            name: "/left/deformation: right".to_owned(),
+            message: "m".repeat(1000),
+            hardware_id: String::new(),
+            values,
+        };
+        let health = health(&status);
+        assert_eq!((health.name.as_str(), health.level), ("/left/deformation: right", "warn"));
+        assert_eq!((health.summary.len(), health.values["rate_hz"].len()), (MAX_TEXT, MAX_TEXT));
+    }
+}
