@@ -89,6 +89,9 @@ class Program:
         self.log_path = folder / f"{label}.log"
         command = [str(PROGRAMS / executable), "--ros-args", "--params-file", str(self.file)]
         command += ["-r", f"__ns:=/{namespace.strip('/')}", *arguments]
+        if executable == "visualization" and "viewer." not in self.file.read_text():
+            # The default port may be somebody else's.
+            command += ["-p", "viewer.port:=0"]
         self.process = subprocess.Popen(
             command,
             stdout=subprocess.DEVNULL,

@@ -12,7 +12,8 @@ import pytest
 from rosbags.highlevel import AnyReader
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-DEMO = REPOSITORY / "launch" / "demo"
+# The default port of the viewer may be somebody else's.
+DEMO = [REPOSITORY / "launch" / "demo", "--set", "viewer.port=0"]
 
 
 @pytest.fixture
@@ -30,7 +31,7 @@ def environment():
 
 def run(*arguments):
     return subprocess.run(
-        [DEMO, *arguments], capture_output=True, text=True, timeout=120, env=environment(), check=False
+        [*DEMO, *arguments], capture_output=True, text=True, timeout=120, env=environment(), check=False
     )
 
 
@@ -59,7 +60,7 @@ def test_a_session_ends_with_a_summary_and_a_whole_recording(name):
 
 def test_a_node_that_dies_ends_the_session_with_its_log(name):
     demo = subprocess.Popen(
-        [DEMO, "--duration", "60", "--no-record", "--record", name],
+        [*DEMO, "--duration", "60", "--no-record", "--record", name],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -181,7 +182,7 @@ def test_a_real_device_runs_until_ctrl_c_and_its_motors_go_off(name, scene, tmp_
     try:
         assert double.stdout.readline().startswith("ready: ")
         demo = subprocess.Popen(
-            [DEMO, "--scene", scene, "--device", "arm=serial:D1", "--set", f"arm/serial.port={port}", "--record", name],
+            [*DEMO, "--scene", scene, "--device", "arm=serial:D1", "--set", f"arm/serial.port={port}", "--record", name],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,

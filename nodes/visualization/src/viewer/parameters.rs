@@ -200,9 +200,16 @@ impl NodeParameters {
                 change.done.extend(before.map(|before| (node, before)));
             }
             (Ok(()), true) => {}
-            (Err(error), false) => change.failed = Some(in_words(&node, &error)),
+            (Err(error), false) => {
+                change.failed = Some(in_words(&node, &error));
+                // One that hangs may accept it yet; what takes it back is then behind it in the same queue.
+                if matches!(error, RemoteError::Silent { .. }) {
+                    let before = self.value(&node, &change.asked.name).cloned();
+                    change.done.extend(before.map(|before| (node, before)));
+                }
+            }
             (Err(error), true) => {
-                let words = format!("; and it stays set: {}", in_words(&node, &error));
+                let words = format!("; when it was taken back: {}", in_words(&node, &error));
                 change.failed.get_or_insert_default().push_str(&words);
             }
         }
@@ -222,6 +229,11 @@ impl NodeParameters {
         let Asked { page, id, .. } = &change.asked;
         page.tell(protocol::parameter_result(*id, change.failed.as_deref().map_or(Ok(()), Err)));
         None
+    }
+
+    fn value(&self, node: &str, name: &str) -> Option<&Value> {
+        let parameters = &self.nodes.get(node)?.parameters;
+        parameters.iter().find(|parameter| parameter.name == name).map(|parameter| &parameter.value)
     }
 
     /// Note the new value; the one before.
