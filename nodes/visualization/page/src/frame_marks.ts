@@ -1,0 +1,63 @@
+// The directions of the body's frame and a length on the screen: a small picture of the axes, and a scale bar in mm.
+
+import type { OrbitCamera } from "./camera.ts";
+import { h, write } from "./dom.ts";
+import { niceBelow, short } from "./nice.ts";
+import type { Vec3 } from "./vector.ts";
+
+const SVG = "http://www.w3.org/2000/svg";
+const ARM_PX = 26;
+/** The bar is at most this long, CSS pixels. */
+const LONGEST_BAR_PX = 130;
+
+export class FrameMarks {
+  private readonly arms: { line: SVGElement; text: SVGElement }[];
+  private readonly drawing: SVGElement;
+  private readonly bar = h("div", { class: "bar-line" });
+  private readonly barText = h("span");
+  private readonly name = h("span", { class: "frame-name" });
+
+  constructor(root: HTMLElement) {
+    this.drawing = svg("svg", { viewBox: "-40 -40 80 80", class: "axes", role: "img", "aria-label": "Axes of the body's frame" });
+    this.arms = ["x", "y", "z"].map((axis) => {
+      const line = svg("line", { class: `axis-${axis}`, x1: "0", y1: "0" });
+      const text = svg("text", { class: `axis-${axis}` });
+      text.textContent = axis;
+      this.drawing.append(line, text);
+      return { line, text };
+    });
+    const scaleBar = h("div", { class: "scale-bar" }, this.barText, this.bar);
+    root.append(h("div", { class: "axes-block" }, this.drawing, this.name), scaleBar);
+  }
+
+  setFrame(name: string): void {
+    write(this.name, name);
+    this.name.title = `Everything is shown in the frame ${name}`;
+  }
+
+  update(orbit: OrbitCamera): void {
+    const { x, y, z } = orbit.axes();
+    const axes: Vec3[] = [x, y, z];
+    // What points away is drawn first.
+    const order = [0, 1, 2].sort((one, other) => axes[one][2] - axes[other][2]);
+    order.forEach((i) => {
+      const [right, up] = axes[i];
+      const { line, text } = this.arms[i];
+      line.setAttribute("x2", (ARM_PX * right).toFixed(1));
+      line.setAttribute("y2", (-ARM_PX * up).toFixed(1));
+      text.setAttribute("x", ((ARM_PX + 8) * right).toFixed(1));
+      text.setAttribute("y", (-(ARM_PX + 8) * up).toFixed(1));
+      this.drawing.append(line, text);
+    });
+    const perPixel = orbit.metresPerPixel();
+    const lengthM = niceBelow(LONGEST_BAR_PX * perPixel);
+    this.bar.style.width = `${(lengthM / perPixel).toFixed(1)}px`;
+    write(this.barText, `${short(1000 * lengthM)} mm`);
+  }
+}
+
+function svg(tag: string, attributes: Readonly<Record<string, string>>): SVGElement {
+  const element = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  return element;
+}

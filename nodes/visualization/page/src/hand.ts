@@ -1,0 +1,213 @@
+// The hand at the mouse: what the user does on the picture becomes targets for a device whose backend is `pointer`.
+//
+// One page at a time holds a device's pointer; it is asked for with the first press. Targets are repeated while they hold
+// (the node lets the hand go when they stop), and stop when the cursor leaves the picture.
+
+import type { OrbitCamera } from "./camera.ts";
+import type { DeviceState } from "./frames.ts";
+import type { PointerAnswer } from "./messages.ts";
+import type { Hit, RayTree } from "./raycast.ts";
+import { allowedDepth, DEPTHS_M, GRASP_DEPTH_M, hoverTarget, pressTarget, pullTarget } from "./target.ts";
+import { add, sub, type Vec3 } from "./vector.ts";
+
+export type Tool = "look" | "press" | "pull";
+
+/** Who holds the pointer of the device. */
+export type Hold = "free" | "asked" | "ours" | "refused";
+
+/** A target that still holds is said again after this time, ms. */
+const REPEAT_MS = 33;
+/** Targets are sent no more often than this, ms. */
+const LEAST_PERIOD_MS = 8;
+/** A grasp begins when the probe touches this deep, m, or at last after this time, ms. */
+const TOUCH_M = 0.0003;
+const GRASP_AFTER_MS = 500;
+
+/** What the hand needs from the page. */
+export interface Surroundings {
+  send(message: object): boolean;
+  tree(): RayTree | null;
+  probeRadiusM(): number;
+  device(name: string): DeviceState | null;
+  changed(): void;
+}
+
+type Motion =
+  | { readonly kind: "away" }
+  | { readonly kind: "hover" }
+  | { readonly kind: "press"; hit: Hit }
+  | { readonly kind: "pull"; readonly hit: Hit; readonly start: Vec3; readonly sinceMs: number; held: boolean; nearerM: number };
+
+export class Hand {
+  /** Name of the device; null: there is none. */
+  device: string | null = null;
+  depthM: number = DEPTHS_M.first;
+  hold: Hold = "free";
+  reason = "";
+  /** The newest target that was sent, m, body frame. */
+  target: Vec3 | null = null;
+  private motion: Motion = { kind: "away" };
+  private sequence = 0;
+  private sentMs = 0;
+
+  constructor(
+    private readonly orbit: OrbitCamera,
+    private readonly around: Surroundings,
+  ) {
+    setInterval(() => this.repeat(), REPEAT_MS);
+    document.addEventListener("visibilitychange", () => {
+      if (document.hidden) this.release();
+    });
+  }
+
+  get active(): boolean {
+    return this.motion.kind === "press" || this.motion.kind === "pull";
+  }
+
+  get pulling(): boolean {
+    return this.motion.kind === "pull";
+  }
+
+  /** What the cursor points at, CSS pixels in the picture. */
+  pick(x: number, y: number): Hit | null {
+    return this.around.tree()?.cast(this.orbit.ray(x, y)) ?? null;
+  }
+
+  /** Begin to press, or to grasp; false when there is nothing under the cursor or no such device. */
+  begin(x: number, y: number, pull: boolean): boolean {
+    const hit = this.device === null ? null : this.pick(x, y);
+    if (!hit) return false;
+    this.take();
+    if (pull) {
+      const start = pressTarget(hit, this.around.probeRadiusM(), GRASP_DEPTH_M);
+      this.motion = { kind: "pull", hit, start, sinceMs: performance.now(), held: false, nearerM: 0 };
+      this.say(start);
+    } else {
+      this.motion = { kind: "press", hit };
+      this.sayPress(hit);
+    }
+    this.around.changed();
+    return true;
+  }
+
+  /** The cursor moved while something is pressed or pulled. */
+  move(x: number, y: number): void {
+    const { motion } = this;
+    if (motion.kind === "press") {
+      motion.hit = this.pick(x, y) ?? motion.hit;
+      if (this.due()) this.sayPress(motion.hit);
+    } else if (motion.kind === "pull" && motion.held) {
+      const point = pullTarget(this.orbit.ray(x, y), motion.hit.point, this.orbit.direction(), motion.nearerM);
+      if (!point) return;
+      this.target = add(motion.start, sub(point, motion.hit.point));
+      if (this.due()) this.say(this.target);
+    }
+  }
+
+  /** The cursor moves over the picture with nothing pressed. */
+  hover(x: number, y: number): void {
+    if (this.hold !== "ours" || this.active) return;
+    const hit = this.pick(x, y);
+    if (!hit) {
+      this.motion = { kind: "away" };
+      return;
+    }
+    this.motion = { kind: "hover" };
+    if (this.due()) this.say(hoverTarget(hit, this.around.probeRadiusM()));
+    else this.target = hoverTarget(hit, this.around.probeRadiusM());
+  }
+
+  /** Let go of the surface: hover above it. */
+  end(): void {
+    const { motion } = this;
+    if (motion.kind !== "press" && motion.kind !== "pull") return;
+    this.motion = { kind: "hover" };
+    this.say(hoverTarget(motion.hit, this.around.probeRadiusM()));
+    this.around.changed();
+  }
+
+  /** The cursor left the picture: targets stop. */
+  leave(): void {
+    if (this.active) return;
+    this.motion = { kind: "away" };
+  }
+
+  /** Pulled in or out, m towards the viewer. */
+  nudge(byM: number): void {
+    const { motion } = this;
+    if (motion.kind !== "pull" || !this.target) return;
+    motion.nearerM += byM;
+    const direction = this.orbit.direction();
+    this.say([0, 1, 2].map((i) => (this.target as Vec3)[i] - byM * direction[i]) as unknown as Vec3);
+  }
+
+  setDepth(depthM: number): void {
+    this.depthM = allowedDepth(depthM);
+    if (this.motion.kind === "press") this.sayPress(this.motion.hit);
+    this.around.changed();
+  }
+
+  /** Give the pointer back. */
+  release(): void {
+    this.motion = { kind: "away" };
+    if (this.device !== null && (this.hold === "ours" || this.hold === "asked")) {
+      this.around.send({ type: "pointer_release", device: this.device });
+    }
+    this.hold = "free";
+    this.target = null;
+    this.around.changed();
+  }
+
+  onAnswer(answer: PointerAnswer): void {
+    if (answer.device !== this.device) return;
+    this.reason = answer.reason;
+    if (answer.granted) this.hold = this.hold === "free" ? "free" : "ours";
+    else if (this.hold !== "free") {
+      this.hold = "refused";
+      this.motion = { kind: "away" };
+      this.target = null;
+    }
+    this.around.changed();
+  }
+
+  /** Nobody holds anything across a connection. */
+  onLost(): void {
+    this.motion = { kind: "away" };
+    this.hold = "free";
+    this.target = null;
+    this.around.changed();
+  }
+
+  private take(): void {
+    if (this.hold === "ours" || this.device === null) return;
+    if (this.around.send({ type: "pointer_take", device: this.device })) this.hold = "asked";
+  }
+
+  private sayPress(hit: Hit): void {
+    this.say(pressTarget(hit, this.around.probeRadiusM(), this.depthM));
+  }
+
+  private say(target: Vec3): void {
+    this.target = target;
+    if (this.device === null || (this.hold !== "ours" && this.hold !== "asked")) return;
+    this.sequence += 1;
+    this.sentMs = performance.now();
+    const grasp = this.motion.kind === "pull" && this.motion.held;
+    this.around.send({ type: "pointer_target", device: this.device, sequence: this.sequence, position: target, grasp });
+  }
+
+  private repeat(): void {
+    const { motion } = this;
+    if (motion.kind === "away" || !this.target) return;
+    if (motion.kind === "pull" && !motion.held) {
+      const state = this.device === null ? null : this.around.device(this.device);
+      const touches = state?.contactHeard === true && state.mode !== "none" && state.depthM > TOUCH_M;
+      motion.held = touches || performance.now() - motion.sinceMs > GRASP_AFTER_MS;
+    }
+    if (performance.now() - this.sentMs >= REPEAT_MS - 4) this.say(this.target);
+  }
+
+  private due(): boolean {
+    return performance.now() - this.sentMs >= LEAST_PERIOD_MS;
+  }
+}

@@ -1,0 +1,189 @@
+// The page: puts its parts together.
+
+import "uplot/dist/uPlot.min.css";
+import "./viewer.css";
+import { App, nowS, type Views } from "./app.ts";
+import type { Quantity } from "./colours.ts";
+import type { ConnectionState } from "./connection.ts";
+import { Controls } from "./controls.ts";
+import { DevicesPanel } from "./devices_panel.ts";
+import { download, fileStamp, find, remember, remembered, write } from "./dom.ts";
+import { FrameMarks } from "./frame_marks.ts";
+import { HandPanel } from "./hand_panel.ts";
+import { HISTORY_S } from "./history.ts";
+import { install } from "./hook.ts";
+import { Legend } from "./legend.ts";
+import { LookPanel } from "./look_panel.ts";
+import { NodesPanel } from "./nodes_panel.ts";
+import { Notices } from "./notices.ts";
+import { ParametersPanel } from "./parameters_panel.ts";
+import { Plots } from "./plots.ts";
+import { Stage } from "./stage.ts";
+import { csv } from "./table.ts";
+import { colour, Theme } from "./theme.ts";
+import { Timeline } from "./timeline.ts";
+
+const QUANTITIES: readonly Quantity[] = ["displacement", "force", "stiffness"];
+
+function start(): void {
+  const notices = new Notices(find("notices"));
+  const quantity = QUANTITIES.find((one) => one === remembered("quantity")) ?? "displacement";
+  const look = new LookPanel(find("look"), (choices) => stage.setLook(choices));
+  const stage = new Stage(find<HTMLCanvasElement>("picture"), {
+    ...look.choices,
+    quantity,
+    fullScaleM: 0.005,
+    forceScaleMPerN: 0.02,
+    displacementScale: 1,
+    probeRadiusM: 0.005,
+  });
+
+  const devices = new DevicesPanel(find("devices"));
+  const nodes = new NodesPanel(find("nodes"));
+  const parameters = new ParametersPanel(find("parameters"), (name, value) => app.setParameter(name, value));
+  const plots = new Plots(find("plots"), () => app.recorder.series);
+  const marks = new FrameMarks(find("frame"));
+  const timeline = new Timeline(find("timeline"), (agoS) => {
+    app.lookBack(agoS);
+    find("stage").classList.toggle("looking-back", agoS > 0);
+  });
+
+  const views: Views = {
+    hello(hello) {
+      devices.setDevices(hello.devices);
+      plots.setDevices(hello.devices);
+      marks.setFrame(hello.body_frame);
+      const place = hello.namespace === "/" || hello.namespace === "" ? "" : ` in ${hello.namespace}`;
+      write(find("session"), `${hello.scene_frame}${place}`);
+    },
+    connection: showConnection,
+    state: (state) => devices.update(state.devices),
+    status(status) {
+      nodes.update(status);
+      devices.setStatus(status.devices);
+      handPanel.setDevices(status.devices.filter((one) => one.pointer).map((one) => one.name));
+    },
+    parameters: (list) => parameters.update(list),
+    result: (result) => parameters.onResult(result),
+    lost: () => parameters.onLost(),
+    body: () => find("waiting").remove(),
+    hand: () => handPanel?.show(),
+    recorded(timeS) {
+      plots.update(timeS);
+      timeline.setReach(timeS - (app.recorder.history.oldestS ?? timeS));
+    },
+  };
+  const app = new App(stage, notices, views);
+  const handPanel = new HandPanel(find("hand"), app.hand, () => {});
+
+  const legend = new Legend(find("legend"), quantity, choose);
+  stage.onScale = (scale) => legend.show(scale);
+  function choose(chosen: Quantity): void {
+    remember("quantity", chosen);
+    legend.choose(chosen);
+    stage.setLook({ quantity: chosen });
+  }
+
+  const showMarks = stage.onPicture;
+  stage.onPicture = () => {
+    showMarks?.();
+    marks.update(stage.orbit);
+  };
+  new Controls(stage.canvas, stage.orbit, app.hand, {
+    tool: () => (find("hand").hidden ? "look" : handPanel.tool),
+    chooseColour: (index) => choose(QUANTITIES[index]),
+    toggleChains: () => look.toggleChains(),
+    lookBack: (byS) => timeline.step(byS),
+    live: () => timeline.set(0),
+    help: () => find<HTMLDialogElement>("keys").showModal(),
+  });
+
+  const page = find("stage");
+  new ResizeObserver(() => stage.resize(page.clientWidth, page.clientHeight)).observe(page);
+  new Theme(find("theme"), () => {
+    stage.setBackground(colour("stage"));
+    plots.rebuild();
+    devices.recolour();
+  });
+  wireButtons(app, stage);
+  setInterval(() => showCounters(app), 500);
+  install(app);
+}
+
+function wireButtons(app: App, stage: Stage): void {
+  const on = (id: string, action: () => void): void => find(id).addEventListener("click", action);
+  on("zoom-in", () => stage.orbit.zoom(0.8));
+  on("zoom-out", () => stage.orbit.zoom(1.25));
+  on("reset", () => stage.orbit.reset());
+  on("help", () => find<HTMLDialogElement>("keys").showModal());
+  on("png", () => {
+    stage.png(2).then(
+      (blob) => download(blob, `rhombus-${fileStamp(new Date())}.png`),
+      (error: unknown) => app.notices.set("png", String(error), 6000),
+    );
+  });
+  on("csv", () => {
+    const { series, serverColumn, pausedS } = app.recorder;
+    const toS = pausedS ?? nowS();
+    const text = csv(series, app.recorder.devices, toS - HISTORY_S, toS, serverColumn);
+    download(new Blob([text], { type: "text/csv" }), `rhombus-${fileStamp(new Date())}.csv`);
+  });
+  const toggle = find("panel-toggle");
+  const show = (open: boolean): void => {
+    document.body.classList.toggle("panel-closed", !open);
+    toggle.setAttribute("aria-expanded", String(open));
+    find("panel").inert = !open;
+  };
+  show(remembered("panel") !== "closed");
+  on("panel-toggle", () => {
+    const open = toggle.getAttribute("aria-expanded") !== "true";
+    remember("panel", open ? "open" : "closed");
+    show(open);
+  });
+}
+
+function showConnection(state: ConnectionState): void {
+  const pill = find("connection");
+  const texts = {
+    connecting: "Connecting",
+    connected: "Connected",
+    silent: "Connected, but the node is silent",
+    waiting: "Connection lost, trying again",
+  };
+  pill.dataset.phase = state.phase;
+  // Attempts are not read aloud one by one.
+  if (state.phase === "connecting" && state.attempt > 1) return;
+  write(pill, texts[state.phase]);
+  pill.title = state.phase === "waiting" ? state.reason : "";
+}
+
+let last = { applied: 0, bytes: 0, atS: 0 };
+
+function showCounters(app: App): void {
+  const { counts } = app.inbox;
+  const [atS, applied, bytes] = [nowS(), app.applied, counts.bytes];
+  const seconds = atS - last.atS;
+  const rate = (applied - last.applied) / seconds;
+  const kilobytes = (bytes - last.bytes) / seconds / 1000;
+  last = { applied, bytes, atS };
+  const body = app.body ? `${app.body.vertexCount} vertices, ${app.body.movedCount} moved` : "no body";
+  const parts = [
+    `${body}.`,
+    `${rate.toFixed(0)} updates/s, ${kilobytes.toFixed(0)} kB/s;`,
+    `${applied} applied of ${counts.surfaces},`,
+    `${app.state?.dropped ?? 0} dropped by the node, ${counts.missing} missing,`,
+    `${counts.garbage} garbage, ${counts.outOfOrder} out of order, ${app.otherMesh} of another mesh,`,
+    `${counts.notFinite + (app.body?.notFinite ?? 0)} not finite.`,
+  ];
+  const trip = app.connection.counts.roundTripMs;
+  if (Number.isFinite(trip)) parts.push(`Round trip ${trip.toFixed(1)} ms.`);
+  write(find("counters"), parts.join(" "));
+}
+
+try {
+  start();
+} catch (error) {
+  const text = document.createElement("p");
+  text.textContent = `This browser cannot show the picture (WebGL 2 is needed): ${String(error)}`;
+  document.getElementById("waiting")?.replaceChildren(text);
+}
