@@ -17,7 +17,7 @@ import type { Look, Stage } from "./stage.ts";
 export interface Views {
   hello(hello: Hello): void;
   connection(state: ConnectionState): void;
-  state(state: StateFrame): void;
+  state(state: Pick<StateFrame, "devices">): void;
   status(status: Status): void;
   parameters(parameters: readonly Parameter[]): void;
   result(result: { id: number; ok: boolean; reason: string; type: "parameter_result" }): void;
@@ -109,6 +109,11 @@ export class App {
 
   private onConnection(state: ConnectionState): void {
     this.views.connection(state);
+    // What is old must not look like what is.
+    if (state.phase === "waiting" || state.phase === "silent") {
+      this.stage.setDevices([]);
+      this.views.state({ devices: [] });
+    }
     if (state.phase === "waiting") {
       this.hand.onLost();
       this.views.lost();
@@ -239,12 +244,8 @@ export class App {
   }
 
   private rayTree(): RayTree | null {
-    if (!this.tree && this.body) this.tree = new RayTree(this.body.rest, this.body.corners, new Body(this.restMesh(this.body)).normals);
+    const { body } = this;
+    if (body) this.tree ??= new RayTree(body.rest, body.corners, body.restNormals);
     return this.tree;
-  }
-
-  private restMesh(body: Body): ConstructorParameters<typeof Body>[0] {
-    const { rest, corners, topologyVersion } = body;
-    return { kind: "mesh", sequence: 0, topologyVersion, positions: rest, corners, stiffness: null };
   }
 }

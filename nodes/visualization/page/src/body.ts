@@ -24,6 +24,7 @@ export class Body {
   /** As drawn: rest plus `displacementScale` times the displacement. */
   readonly positions: Float32Array;
   readonly normals: Float32Array;
+  readonly restNormals: Float32Array;
   /** True displacement of each vertex, m; 0 at rest. */
   readonly displacements: Float32Array;
   /** The vertices that an update has moved: the first `movedCount` of them. */
@@ -74,6 +75,7 @@ export class Body {
     [this.firstFace, this.faces] = facesOfVertices(mesh.corners, vertices);
     for (let face = 0; face < triangles; face += 1) this.turnFace(face);
     for (let vertex = 0; vertex < vertices; vertex += 1) this.turnVertex(vertex);
+    this.restNormals = this.normals.slice();
   }
 
   /** The surface is where the update says, and everything else is at rest. */

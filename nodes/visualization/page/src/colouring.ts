@@ -14,6 +14,8 @@ export interface Scale {
   readonly unit: string;
   readonly from: number;
   readonly to: number;
+  /** One line, and the whole story. */
+  readonly note: string;
   readonly explanation: string;
 }
 
@@ -113,7 +115,10 @@ export class Colouring {
           unit: "mm",
           from: 0,
           to: 1000 * fullScaleM,
-          explanation: "How far each point of the surface is from its place at rest.",
+          note: "Distance from the place at rest",
+          explanation:
+            "How far each point of the surface is from its place at rest. Hatched: more than the scale's end " +
+            "(visualization.full_scale).",
         };
       case "force":
         return {
@@ -121,6 +126,7 @@ export class Colouring {
           unit: "N",
           from: 0,
           to: this.largestForceN,
+          note: "Carried by the chain's unit below",
           explanation:
             "Force carried by the chain's unit under each point: F |u| / |DL| of the nearest contact. Exact for the " +
             "published law, whose units are similar; for the energy law the share by displacement.",
@@ -133,6 +139,7 @@ export class Colouring {
           unit: this.law && this.law.chains.length > 0 ? "N/mm" : "× law",
           from: low * unit,
           to: high * unit,
+          note: low === high ? "The same everywhere: no stiffness map" : "Contact law at rest, with the map's factor",
           explanation:
             low === high
               ? "The contact law is the same everywhere: this scene has no stiffness map."

@@ -7,8 +7,8 @@ import type { Vec3 } from "./vector.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
 const ARM_PX = 26;
-/** The bar is at most this long, CSS pixels. */
-const LONGEST_BAR_PX = 130;
+/** The bar is at most this long, in heights of the page's letters. */
+const LONGEST_BAR_REM = 9;
 
 export class FrameMarks {
   private readonly arms: { line: SVGElement; text: SVGElement }[];
@@ -31,7 +31,7 @@ export class FrameMarks {
   }
 
   setFrame(name: string): void {
-    write(this.name, name);
+    write(this.name, `${name} frame`);
     this.name.title = `Everything is shown in the frame ${name}`;
   }
 
@@ -50,7 +50,8 @@ export class FrameMarks {
       this.drawing.append(line, text);
     });
     const perPixel = orbit.metresPerPixel();
-    const lengthM = niceBelow(LONGEST_BAR_PX * perPixel);
+    const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
+    const lengthM = niceBelow(LONGEST_BAR_REM * rem * perPixel);
     this.bar.style.width = `${(lengthM / perPixel).toFixed(1)}px`;
     write(this.barText, `${short(1000 * lengthM)} mm`);
   }

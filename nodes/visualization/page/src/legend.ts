@@ -50,7 +50,8 @@ export class Legend {
     const spoken = from === to ? texts[1] : `${short(from)} to ${short(to)} ${unit}`;
     this.canvas.setAttribute("aria-label", `Colour scale, ${scale.quantity}: ${spoken}`);
     this.canvas.title = scale.explanation;
-    write(this.note, scale.explanation);
+    this.note.title = scale.explanation;
+    write(this.note, scale.note);
     const colours = colourScale(scale.quantity);
     this.canvas.getContext("2d")?.putImageData(new ImageData(new Uint8ClampedArray(colours), STEPS, 1), 0, 0);
   }

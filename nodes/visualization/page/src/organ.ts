@@ -57,10 +57,10 @@ void main() {
   float diffuse = max(dot(normal, key), 0.0);
   float sky = 0.5 + 0.5 * normal.y;
   float facing = max(dot(normal, towards), 0.0);
-  vec3 light = vec3(0.30 + 0.16 * sky) + vec3(0.80, 0.79, 0.77) * diffuse;
+  vec3 light = vec3(0.46 + 0.22 * sky) + vec3(0.92, 0.91, 0.89) * diffuse;
   vec3 shaded = base * light;
   float shine = pow(max(dot(normal, normalize(key + towards)), 0.0), 42.0);
-  shaded += vec3(0.10) * shine + vec3(0.05, 0.055, 0.065) * pow(1.0 - facing, 3.0);
+  shaded += vec3(0.12) * shine + vec3(0.045, 0.05, 0.06) * pow(1.0 - facing, 3.0);
   gl_FragColor = vec4(shaded, opacity);
   #include <colorspace_fragment>
 }`;

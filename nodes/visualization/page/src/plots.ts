@@ -126,7 +126,7 @@ export class Plots {
     return {
       width: Math.max(this.root.clientWidth, 100),
       height: this.height(i),
-      padding: [6, 8, last ? 0 : 4, 0],
+      padding: [6, 18, last ? 0 : 4, 0],
       legend: { show: false },
       cursor: { y: false, drag: { x: false, y: false }, sync: { key: syncKey, setSeries: false }, points: { size: 5 } },
       scales: {

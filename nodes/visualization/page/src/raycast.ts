@@ -20,12 +20,16 @@ export interface Hit {
 
 /** Triangles that a leaf holds. */
 const LEAF = 8;
+/** Bits of a position along each axis in the order of the triangles, and of a triangle's number. */
+const GRID_BITS = 10;
+const NUMBER_BITS = 22;
 
 export class RayTree {
   /** Lower and upper corner of each node's box. */
   private readonly boxes: Float32Array;
-  /** Inner node: index of its second child (the first follows it), negative. Leaf: its first triangle in `order`. */
-  private readonly next: Int32Array;
+  /** Inner node: index of its second child (the first follows it). Leaf: its first triangle in `order`. */
+  private readonly next: Uint32Array;
+  /** Triangles of a leaf; 0 is an inner node. */
   private readonly counts: Uint8Array;
   private readonly order: Uint32Array;
   private nodes = 0;
@@ -35,20 +39,12 @@ export class RayTree {
     private readonly corners: Uint32Array,
     private readonly normals: Float32Array,
   ) {
-    const triangles = corners.length / 3;
-    this.order = Uint32Array.from({ length: triangles }, (_, i) => i);
-    const most = 2 * Math.max(Math.ceil(triangles / (LEAF / 2)), 1) + 1;
+    this.order = alongCurve(positions, corners);
+    const most = 4 * Math.ceil(this.order.length / LEAF) + 1;
     this.boxes = new Float32Array(6 * most);
-    this.next = new Int32Array(most);
+    this.next = new Uint32Array(most);
     this.counts = new Uint8Array(most);
-    const centres = new Float32Array(corners.length);
-    for (let triangle = 0; triangle < triangles; triangle += 1) {
-      for (let axis = 0; axis < 3; axis += 1) {
-        const at = (corner: number): number => positions[3 * corners[3 * triangle + corner] + axis];
-        centres[3 * triangle + axis] = at(0) + at(1) + at(2);
-      }
-    }
-    this.build(0, triangles, centres);
+    this.build(0, this.order.length);
   }
 
   /** The first triangle that the ray meets from outside or inside; null: none. */
@@ -62,7 +58,7 @@ export class RayTree {
       if (this.enters(node, ray.origin, inverse) >= best) continue;
       const count = this.counts[node];
       if (count === 0) {
-        stack.push(-this.next[node], node + 1);
+        stack.push(this.next[node], node + 1);
         continue;
       }
       for (let i = this.next[node]; i < this.next[node] + count; i += 1) {
@@ -86,44 +82,40 @@ export class RayTree {
   }
 
   /** Builds the node over `order[from .. to]`; returns its index. */
-  private build(from: number, to: number, centres: Float32Array): number {
+  private build(from: number, to: number): number {
     const node = this.nodes;
     this.nodes += 1;
-    const axis = this.bound(node, from, to, centres);
     if (to - from <= LEAF) {
       this.next[node] = from;
       this.counts[node] = to - from;
+      this.boundTriangles(node, from, to);
       return node;
     }
     const half = (from + to) >> 1;
-    const part = this.order.subarray(from, to);
-    part.sort((one, other) => centres[3 * one + axis] - centres[3 * other + axis]);
-    this.build(from, half, centres);
-    this.next[node] = -this.build(half, to, centres);
+    const first = this.build(from, half);
+    const second = this.build(half, to);
+    this.next[node] = second;
+    const { boxes } = this;
+    for (let i = 0; i < 3; i += 1) {
+      boxes[6 * node + i] = Math.min(boxes[6 * first + i], boxes[6 * second + i]);
+      boxes[6 * node + 3 + i] = Math.max(boxes[6 * first + 3 + i], boxes[6 * second + 3 + i]);
+    }
     return node;
   }
 
-  /** Writes the node's box; returns the axis along which the centres spread most. */
-  private bound(node: number, from: number, to: number, centres: Float32Array): number {
-    const box = this.boxes.subarray(6 * node, 6 * node + 6);
-    box.fill(Infinity, 0, 3);
-    box.fill(-Infinity, 3, 6);
-    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  private boundTriangles(node: number, from: number, to: number): void {
+    const { boxes, positions, corners, order } = this;
+    boxes.fill(Infinity, 6 * node, 6 * node + 3);
+    boxes.fill(-Infinity, 6 * node + 3, 6 * node + 6);
     for (let i = from; i < to; i += 1) {
-      const triangle = this.order[i];
-      for (let axis = 0; axis < 3; axis += 1) {
-        for (let corner = 0; corner < 3; corner += 1) {
-          const value = this.positions[3 * this.corners[3 * triangle + corner] + axis];
-          if (value < box[axis]) box[axis] = value;
-          if (value > box[3 + axis]) box[3 + axis] = value;
+      for (let corner = 3 * order[i]; corner < 3 * order[i] + 3; corner += 1) {
+        for (let axis = 0; axis < 3; axis += 1) {
+          const value = positions[3 * corners[corner] + axis];
+          boxes[6 * node + axis] = Math.min(boxes[6 * node + axis], value);
+          boxes[6 * node + 3 + axis] = Math.max(boxes[6 * node + 3 + axis], value);
         }
-        const centre = centres[3 * triangle + axis];
-        low[axis] = Math.min(low[axis], centre);
-        high[axis] = Math.max(high[axis], centre);
       }
     }
-    const spread = [0, 1, 2].map((axis) => high[axis] - low[axis]);
-    return spread.indexOf(Math.max(...spread));
   }
 
   /** Distance at which the ray enters a node's box; infinity when it does not. */
@@ -159,4 +151,37 @@ export class RayTree {
   private vector(of: Float32Array, vertex: number): Vec3 {
     return [of[3 * vertex], of[3 * vertex + 1], of[3 * vertex + 2]];
   }
+}
+
+/** The triangles in the order of a curve that fills space (Morton): neighbours on it are neighbours in the body. */
+function alongCurve(positions: Float32Array, corners: Uint32Array): Uint32Array {
+  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  for (let i = 0; i < positions.length; i += 1) {
+    low[i % 3] = Math.min(low[i % 3], positions[i]);
+    high[i % 3] = Math.max(high[i % 3], positions[i]);
+  }
+  const cells = 2 ** GRID_BITS - 1;
+  // Place on the curve and number of the triangle in one number, which a typed array sorts quickly.
+  const keys = new Float64Array(corners.length / 3);
+  for (let triangle = 0; triangle < keys.length; triangle += 1) {
+    let place = 0;
+    for (let axis = 0; axis < 3; axis += 1) {
+      let sum = 0;
+      for (let corner = 3 * triangle; corner < 3 * triangle + 3; corner += 1) sum += positions[3 * corners[corner] + axis];
+      const share = (sum / 3 - low[axis]) / (high[axis] - low[axis]);
+      place |= spread(Math.min(Math.max(Math.round(share * cells), 0), cells)) << axis;
+    }
+    keys[triangle] = place * 2 ** NUMBER_BITS + triangle;
+  }
+  keys.sort();
+  return Uint32Array.from(keys, (key) => key % 2 ** NUMBER_BITS);
+}
+
+/** The bits of a number below 1024, two apart. */
+function spread(value: number): number {
+  let bits = value;
+  bits = (bits | (bits << 16)) & 0x030000ff;
+  bits = (bits | (bits << 8)) & 0x0300f00f;
+  bits = (bits | (bits << 4)) & 0x030c30c3;
+  return (bits | (bits << 2)) & 0x09249249;
 }

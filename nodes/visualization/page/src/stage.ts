@@ -3,17 +3,7 @@
 // Without a graphics card a picture costs what its pixels cost. It is then drawn without smoothing, with a bounded number
 // of pixels, and once more in full when nothing moved for a moment.
 
-import {
-  AmbientLight,
-  BufferGeometry,
-  Color,
-  DirectionalLight,
-  Float32BufferAttribute,
-  LineBasicMaterial,
-  LineSegments,
-  Scene,
-  WebGLRenderer,
-} from "three";
+import { AmbientLight, Color, DirectionalLight, Scene, WebGLRenderer } from "three";
 import { Body } from "./body.ts";
 import { OrbitCamera } from "./camera.ts";
 import { ContactLaw } from "./chain.ts";
@@ -23,6 +13,7 @@ import type { Quantity } from "./colours.ts";
 import { DeviceObjects } from "./device_objects.ts";
 import type { DeviceState } from "./frames.ts";
 import { Organ } from "./organ.ts";
+import { Strokes, type Rgb } from "./strokes.ts";
 
 /** What of the picture can be chosen. */
 export interface Look {
@@ -40,6 +31,11 @@ export interface Look {
 const SOFTWARE_PIXELS = 1.0e6;
 /** Most pixels of any picture. */
 const MOST_PIXELS = 3840 * 2160;
+/** Colours of x, y and z. */
+const AXES = [0xd8404c, 0x3fa34d, 0x3d7de0] as const;
+/** Without a graphics card: pause after a picture, as a share of the time it took, and at most, ms. */
+const PAUSE_SHARE = 0.5;
+const LONGEST_PAUSE_MS = 150;
 /** Nothing moved for this long: draw once in full, ms. */
 const STILL_MS = 220;
 
@@ -56,12 +52,14 @@ export class Stage {
   private readonly software: boolean;
   private organ: Organ | null = null;
   private colouring: Colouring | null = null;
-  private axes: LineSegments | null = null;
+  private readonly axes = new Strokes();
   private readonly deviceObjects: DeviceObjects[] = [];
   private devices: readonly DeviceState[] = [];
   private law: ContactLaw | null = null;
   private devicesChanged = false;
   private requested = 0;
+  private earliestMs = 0;
+  private pauseTimer: ReturnType<typeof setTimeout> | undefined;
   private stillTimer: ReturnType<typeof setTimeout> | undefined;
   private widthPx = 1;
   private heightPx = 1;
@@ -77,7 +75,7 @@ export class Stage {
     const key = new DirectionalLight(0xffffff, 2.2);
     key.position.set(-0.45, 0.7, 0.85);
     this.orbit.camera.add(key);
-    this.scene.add(this.orbit.camera, new AmbientLight(0xffffff, 1.1), this.overlay.strokes.object);
+    this.scene.add(this.orbit.camera, new AmbientLight(0xffffff, 1.1), this.overlay.strokes.object, this.axes.object);
     canvas.addEventListener("webglcontextrestored", () => this.invalidate());
   }
 
@@ -105,7 +103,7 @@ export class Stage {
     this.scene.add(this.organ.mesh);
     const { center, radius } = this.organ.bounds;
     if (!keepView) this.orbit.frame([center.x, center.y, center.z], radius);
-    this.makeAxes(radius);
+    this.drawAxes(radius);
     this.recolour();
     this.applyLook();
   }
@@ -131,7 +129,14 @@ export class Stage {
 
   /** Something changed: draw at the next frame of the screen. */
   invalidate(): void {
-    if (this.requested === 0) this.requested = requestAnimationFrame(() => this.draw(false));
+    if (this.requested !== 0 || this.pauseTimer !== undefined) return;
+    const request = (): void => {
+      this.pauseTimer = undefined;
+      this.requested = requestAnimationFrame(() => this.draw(false));
+    };
+    const pauseMs = this.earliestMs - performance.now();
+    if (pauseMs > 1) this.pauseTimer = setTimeout(request, pauseMs);
+    else request();
   }
 
   /** The picture in full, as PNG; `scale` times as many pixels each way as on the screen. */
@@ -157,9 +162,16 @@ export class Stage {
 
   private draw(still: boolean): void {
     this.requested = 0;
+    const begunMs = performance.now();
     this.setPixelRatio(still ? this.stillRatio() : this.movingRatio());
     this.render();
-    if (still || !this.software) return;
+    if (!this.software) return;
+    // What draws without a graphics card takes the processor from whoever else is at work: leave it some.
+    setTimeout(() => {
+      const nowMs = performance.now();
+      this.earliestMs = nowMs + Math.min(PAUSE_SHARE * (nowMs - begunMs), LONGEST_PAUSE_MS);
+    });
+    if (still) return;
     clearTimeout(this.stillTimer);
     this.stillTimer = setTimeout(() => {
       if (this.requested === 0) this.requested = requestAnimationFrame(() => this.draw(true));
@@ -205,29 +217,21 @@ export class Stage {
     const { look } = this;
     this.organ?.setOpacity(look.opacity);
     this.organ?.body.setDisplacementScale(look.displacementScale);
-    if (this.axes) this.axes.visible = look.axes;
+    this.axes.object.visible = look.axes;
     this.devicesChanged = true;
     this.invalidate();
   }
 
   /** The body's frame, at its origin. */
-  private makeAxes(radiusM: number): void {
-    if (this.axes) {
-      this.scene.remove(this.axes);
-      this.axes.geometry.dispose();
-    }
-    const size = 0.35 * radiusM;
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new Float32BufferAttribute([0, 0, 0, size, 0, 0, 0, 0, 0, 0, size, 0, 0, 0, 0, 0, 0, size], 3));
-    const colours = [0xd8404c, 0x3fa34d, 0x3d7de0].flatMap((hex) => {
+  private drawAxes(radiusM: number): void {
+    const [size, width] = [0.35 * radiusM, 0.008 * radiusM];
+    this.axes.begin();
+    AXES.forEach((hex, axis) => {
       const { r, g, b } = new Color(hex);
-      return [r, g, b, r, g, b];
+      const colour: Rgb = [r, g, b];
+      this.axes.line([0, 0, 0], [axis === 0 ? size : 0, axis === 1 ? size : 0, axis === 2 ? size : 0], width, colour);
     });
-    geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
-    const material = new LineBasicMaterial({ vertexColors: true, depthTest: false, transparent: true, opacity: 0.8 });
-    this.axes = new LineSegments(geometry, material);
-    this.axes.renderOrder = 5;
-    this.scene.add(this.axes);
+    this.axes.end();
   }
 
   private movingRatio(): number {
@@ -249,6 +253,7 @@ export class Stage {
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(this.widthPx, this.heightPx, false);
     this.overlay.strokes.setPixels(width, height);
+    this.axes.setPixels(width, height);
   }
 }
 
