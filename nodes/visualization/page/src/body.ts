@@ -85,7 +85,9 @@ export class Body {
     for (let i = 0; i < vertices.length; i += 1) if (vertices[i] >= this.vertexCount) return "no such vertex";
     this.toRest();
     for (let i = 0; i < vertices.length; i += 1) {
-      const [x, y, z] = [displacements[3 * i], displacements[3 * i + 1], displacements[3 * i + 2]];
+      const x = displacements[3 * i];
+      const y = displacements[3 * i + 1];
+      const z = displacements[3 * i + 2];
       if (!Number.isFinite(x + y + z)) {
         this.notFinite += 1;
         continue;
@@ -183,9 +185,15 @@ export class Body {
   /** Twice the area along the normal, so that large faces count more at their vertices. */
   private turnFace(face: number): void {
     const { positions: p, corners, faceNormals } = this;
-    const [a, b, c] = [3 * corners[3 * face], 3 * corners[3 * face + 1], 3 * corners[3 * face + 2]];
-    const [ux, uy, uz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
-    const [vx, vy, vz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
+    const a = 3 * corners[3 * face];
+    const b = 3 * corners[3 * face + 1];
+    const c = 3 * corners[3 * face + 2];
+    const ux = p[b] - p[a];
+    const uy = p[b + 1] - p[a + 1];
+    const uz = p[b + 2] - p[a + 2];
+    const vx = p[c] - p[a];
+    const vy = p[c + 1] - p[a + 1];
+    const vz = p[c + 2] - p[a + 2];
     faceNormals[3 * face] = uy * vz - uz * vy;
     faceNormals[3 * face + 1] = uz * vx - ux * vz;
     faceNormals[3 * face + 2] = ux * vy - uy * vx;
@@ -193,7 +201,9 @@ export class Body {
 
   private turnVertex(vertex: number): void {
     const { faceNormals, faces, normals } = this;
-    let [x, y, z] = [0, 0, 0];
+    let x = 0;
+    let y = 0;
+    let z = 0;
     for (let at = this.firstFace[vertex]; at < this.firstFace[vertex + 1]; at += 1) {
       const face = 3 * faces[at];
       x += faceNormals[face];

@@ -81,7 +81,9 @@ export class Colouring {
       let nearest = Infinity;
       let perMetre = 0;
       for (const { proxy, newtonPerMetre } of sources) {
-        const [x, y, z] = [rest[3 * vertex] - proxy[0], rest[3 * vertex + 1] - proxy[1], rest[3 * vertex + 2] - proxy[2]];
+        const x = rest[3 * vertex] - proxy[0];
+        const y = rest[3 * vertex + 1] - proxy[1];
+        const z = rest[3 * vertex + 2] - proxy[2];
         const squared = x * x + y * y + z * z;
         if (squared < nearest) {
           nearest = squared;
