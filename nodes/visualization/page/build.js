@@ -26,7 +26,7 @@ async function buildPage() {
   rmSync("dist", { recursive: true, force: true });
   mkdirSync("dist");
   await build({
-    entryPoints: { viewer: "src/main.ts" },
+    entryPoints: { viewer: "src/main.ts", link: "src/link_worker.ts" },
     outdir: "dist",
     bundle: true,
     minify: true,

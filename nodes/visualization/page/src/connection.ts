@@ -1,9 +1,12 @@
 // The connection to the node: comes back by itself, with longer and longer pauses, and says what it is doing.
 
+import { Link } from "./link.ts";
+
 /** Pauses between attempts, ms. */
 const PAUSES_MS = [250, 500, 1000, 2000, 4000, 5000];
 /** A server sends states at 4 Hz or more; silence for this long means that nobody is there, ms. */
-const SILENCE_MS = 1000;
+const SILENCE_MS = 700;
+const WATCH_MS = 100;
 const CONNECT_TIMEOUT_MS = 5000;
 /** Without a sign of life for this long the connection is given up and made anew, ms. */
 const DEAD_MS = 5000;
@@ -31,9 +34,10 @@ export interface ConnectionCounts {
 
 export class Connection {
   readonly counts: ConnectionCounts = { reconnects: 0, roundTripMs: NaN };
-  private socket: WebSocket | null = null;
+  private readonly link: Link;
   private failures = 0;
   private heardMs = 0;
+  private watchedMs = 0;
   private startedMs = 0;
   private opened = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -43,7 +47,26 @@ export class Connection {
     private readonly url: string,
     private readonly listener: ConnectionListener,
   ) {
-    setInterval(() => this.watch(), 200);
+    this.link = new Link({
+      opened: () => {
+        this.opened = true;
+        this.heardMs = performance.now();
+        this.listener.onOpen();
+      },
+      closed: (reason) => {
+        if (this.current.phase !== "waiting") this.lost(reason || "the node does not answer");
+      },
+      text: (text) => {
+        this.heard();
+        this.listener.onText(text);
+      },
+      binary: (buffer) => {
+        if (!this.opened) return;
+        this.heard();
+        this.listener.onBinary(buffer);
+      },
+    });
+    setInterval(() => this.watch(), WATCH_MS);
     setInterval(() => this.send({ type: "ping", t: performance.now() }), PING_MS);
     // A network that is back, or a page that is looked at again, need not wait for the pause to end.
     window.addEventListener("online", () => this.retryNow());
@@ -57,10 +80,10 @@ export class Connection {
     return this.current;
   }
 
-  /** False when nobody is connected, or when more waits to be sent than is worth sending. */
+  /** False when nobody is connected. */
   send(message: object): boolean {
-    if (this.socket?.readyState !== WebSocket.OPEN || this.socket.bufferedAmount > 65536) return false;
-    this.socket.send(JSON.stringify(message));
+    if (!this.opened) return false;
+    this.link.send(JSON.stringify(message));
     return true;
   }
 
@@ -77,30 +100,18 @@ export class Connection {
     this.opened = false;
     this.startedMs = performance.now();
     this.become({ phase: "connecting", attempt: this.failures + 1 });
-    const socket = new WebSocket(this.url);
-    this.socket = socket;
-    socket.binaryType = "arraybuffer";
-    socket.onopen = () => {
-      this.opened = true;
-      this.heardMs = performance.now();
-      this.listener.onOpen();
-    };
-    socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
-      if (this.socket !== socket) return;
-      this.heardMs = performance.now();
-      this.failures = 0;
-      if (this.current.phase !== "connected") this.become({ phase: "connected" });
-      if (typeof event.data === "string") this.listener.onText(event.data);
-      else this.listener.onBinary(event.data);
-    };
-    socket.onclose = (event) => {
-      if (this.socket === socket) this.lost(event.reason || "the node does not answer");
-    };
+    this.link.open(this.url);
+  }
+
+  private heard(): void {
+    this.heardMs = performance.now();
+    this.failures = 0;
+    if (this.current.phase !== "connected") this.become({ phase: "connected" });
   }
 
   private lost(reason: string): void {
     if (this.opened) this.counts.reconnects += 1;
-    this.socket = null;
+    this.opened = false;
     const pauseMs = PAUSES_MS[Math.min(this.failures, PAUSES_MS.length - 1)];
     this.failures += 1;
     this.become({ phase: "waiting", attempt: this.failures, reason, untilMs: performance.now() + pauseMs });
@@ -110,12 +121,14 @@ export class Connection {
   private watch(): void {
     const silentMs = performance.now() - (this.opened ? this.heardMs : this.startedMs);
     const { phase } = this.current;
-    if (phase === "connected" && silentMs > SILENCE_MS) this.become({ phase: "silent" });
+    // Asked twice: after the page itself was held up, what arrived meanwhile gets its turn first.
+    const heardSince = this.watchedMs !== this.heardMs;
+    this.watchedMs = this.heardMs;
+    if (phase === "connected" && silentMs > SILENCE_MS && !heardSince) this.become({ phase: "silent" });
     const limitMs = phase === "connecting" ? CONNECT_TIMEOUT_MS : DEAD_MS;
     if ((phase === "connecting" || phase === "silent") && silentMs > limitMs) {
-      const socket = this.socket;
       this.lost("nothing was heard from the node");
-      socket?.close();
+      this.link.close();
     }
   }
 

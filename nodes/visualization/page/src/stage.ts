@@ -122,6 +122,8 @@ export class Stage {
   }
 
   setDevices(devices: readonly DeviceState[]): void {
+    const unchanged = devices.length === this.devices.length && devices.every((one, i) => looksLike(one, this.devices[i]));
+    if (unchanged) return;
     this.devices = devices;
     this.devicesChanged = true;
     this.invalidate();
@@ -129,6 +131,7 @@ export class Stage {
 
   /** Something changed: draw at the next frame of the screen. */
   invalidate(): void {
+    clearTimeout(this.stillTimer);
     if (this.requested !== 0 || this.pauseTimer !== undefined) return;
     const request = (): void => {
       this.pauseTimer = undefined;
@@ -174,7 +177,7 @@ export class Stage {
     if (still) return;
     clearTimeout(this.stillTimer);
     this.stillTimer = setTimeout(() => {
-      if (this.requested === 0) this.requested = requestAnimationFrame(() => this.draw(true));
+      this.requested = requestAnimationFrame(() => this.draw(true));
     }, STILL_MS);
   }
 
@@ -255,6 +258,16 @@ export class Stage {
     this.overlay.strokes.setPixels(width, height);
     this.axes.setPixels(width, height);
   }
+}
+
+/** Whether two states of a device give the same picture. */
+function looksLike(one: DeviceState, other: DeviceState): boolean {
+  const flags = (state: DeviceState): string =>
+    [state.mode, state.contactHeard, state.forceHeard, state.poseHeard, state.saturated, state.clutched].join();
+  const numbers = (state: DeviceState): readonly number[] =>
+    [...state.probe, ...state.proxy, ...state.normal, ...state.force, ...state.handle, state.depthM];
+  const others = numbers(other);
+  return flags(one) === flags(other) && numbers(one).every((value, i) => Object.is(value, others[i]));
 }
 
 /** What draws: asked of a context that is made for the question alone. */

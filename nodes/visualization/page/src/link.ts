@@ -1,0 +1,62 @@
+// The page's end of the socket's thread.
+
+export type ToLink =
+  | { readonly type: "open"; readonly url: string; readonly id: number }
+  | { readonly type: "close" }
+  | { readonly type: "send"; readonly text: string }
+  /** A frame was dealt with. */
+  | { readonly type: "taken"; readonly bytes: number };
+
+export type FromLink =
+  | { readonly type: "opened"; readonly id: number }
+  | { readonly type: "closed"; readonly id: number; readonly reason: string }
+  | { readonly type: "text"; readonly id: number; readonly text: string }
+  | { readonly type: "binary"; readonly buffer: ArrayBuffer };
+
+export interface LinkListener {
+  opened(): void;
+  closed(reason: string): void;
+  text(text: string): void;
+  binary(buffer: ArrayBuffer): void;
+}
+
+export class Link {
+  private readonly worker = new Worker(new URL("link.js", document.baseURI), { type: "module", name: "link" });
+  private id = 0;
+
+  constructor(private readonly listener: LinkListener) {
+    this.worker.onmessage = ({ data }: MessageEvent<FromLink>) => this.onMessage(data);
+    this.worker.onerror = () => this.listener.closed("the page's own script link.js cannot be run");
+  }
+
+  /** A new socket in place of the one before. */
+  open(url: string): void {
+    this.id += 1;
+    this.post({ type: "open", url, id: this.id });
+  }
+
+  close(): void {
+    this.post({ type: "close" });
+  }
+
+  send(text: string): void {
+    this.post({ type: "send", text });
+  }
+
+  private onMessage(message: FromLink): void {
+    if (message.type === "binary") {
+      const bytes = message.buffer.byteLength;
+      this.listener.binary(message.buffer);
+      this.post({ type: "taken", bytes });
+    } else if (message.id === this.id) {
+      // What an older socket still says does not count.
+      if (message.type === "opened") this.listener.opened();
+      else if (message.type === "closed") this.listener.closed(message.reason);
+      else this.listener.text(message.text);
+    }
+  }
+
+  private post(message: ToLink): void {
+    this.worker.postMessage(message);
+  }
+}
