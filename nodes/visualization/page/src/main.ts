@@ -41,10 +41,11 @@ function start(): void {
   const devices = new DevicesPanel(find("devices"));
   const nodes = new NodesPanel(find("nodes"));
   const parameters = new ParametersPanel(find("parameters"), (name, value) => app.setParameter(name, value));
-  const plots = new Plots(find("plots"), () => app.recorder.series);
+  const plots = new Plots(find("plots"), () => app.recorder.series, (agoS) => timeline.set(agoS));
   const marks = new FrameMarks(find("frame"));
   const timeline = new Timeline(find("timeline"), (agoS) => {
     app.lookBack(agoS);
+    plots.mark(agoS);
     find("stage").classList.toggle("looking-back", agoS > 0);
   });
 

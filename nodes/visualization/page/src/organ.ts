@@ -60,7 +60,7 @@ void main() {
   vec3 light = vec3(0.46 + 0.22 * sky) + vec3(0.92, 0.91, 0.89) * diffuse;
   vec3 shaded = base * light;
   float shine = pow(max(dot(normal, normalize(key + towards)), 0.0), 42.0);
-  shaded += vec3(0.12) * shine + vec3(0.045, 0.05, 0.06) * pow(1.0 - facing, 3.0);
+  shaded += vec3(0.12) * shine + vec3(0.02, 0.023, 0.03) * pow(1.0 - facing, 3.0);
   gl_FragColor = vec4(shaded, opacity);
   #include <colorspace_fragment>
 }`;

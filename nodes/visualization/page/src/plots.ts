@@ -28,11 +28,14 @@ export class Plots {
   private drawnMs = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private endS = 0;
+  /** The moment that is looked at; null: now. */
+  private markS: number | null = null;
   private visible = true;
 
   constructor(
     private readonly root: HTMLElement,
     private readonly series: () => Series,
+    private readonly onPick: (agoS: number) => void,
   ) {
     new ResizeObserver(() => this.resize()).observe(root);
     // What nobody sees is not drawn.
@@ -71,6 +74,12 @@ export class Plots {
     this.schedule();
   }
 
+  /** Mark a moment before the end, and show its numbers; 0: the end. */
+  mark(agoS: number): void {
+    this.markS = agoS > 0 ? this.endS - agoS : null;
+    this.draw();
+  }
+
   private schedule(): void {
     if (this.timer !== undefined || !this.visible || document.hidden) return;
     const waitMs = Math.max(0, PERIOD_MS - (performance.now() - this.drawnMs));
@@ -90,8 +99,9 @@ export class Plots {
       const columns = this.devices.map((_, device) => series.column(column(device, i), from, to));
       plot.setData([times, ...columns], false);
       plot.setScale("x", { min: this.endS - HISTORY_S, max: this.endS });
-      const newest = this.devices.map((_, device) => columns[device]?.at(-1));
-      const text = newest.map((value) => fixed(value, QUANTITIES[i].decimals)).join("  ·  ");
+      const row = this.markS === null ? to - from - 1 : series.firstSince(this.markS) - from;
+      const shown = this.devices.map((_, device) => columns[device][row]);
+      const text = shown.map((value) => fixed(value, QUANTITIES[i].decimals)).join("  ·  ");
       write(this.readings[i], text);
     });
   }
@@ -105,6 +115,24 @@ export class Plots {
   private height(i: number): number {
     const rem = parseFloat(getComputedStyle(document.documentElement).fontSize) / 14;
     return Math.round((i === QUANTITIES.length - 1 ? LAST_HEIGHT_PX : HEIGHT_PX) * rem);
+  }
+
+  private drawMark(plot: uPlot): void {
+    if (this.markS === null) return;
+    const x = Math.round(plot.valToPos(this.markS, "x", true));
+    const { ctx, bbox } = plot;
+    ctx.save();
+    ctx.fillStyle = colour("accent");
+    ctx.fillRect(x - 1, bbox.top, 2, bbox.height);
+    ctx.restore();
+  }
+
+  /** A click looks back to that moment. */
+  private listen(plot: uPlot): void {
+    plot.over.addEventListener("click", (event) => {
+      const agoS = this.endS - plot.posToVal(event.offsetX, "x");
+      this.onPick(Math.min(Math.max(agoS, 0), HISTORY_S));
+    });
   }
 
   private key(): HTMLElement {
@@ -128,6 +156,7 @@ export class Plots {
       height: this.height(i),
       padding: [6, 18, last ? 0 : 4, 0],
       legend: { show: false },
+      hooks: { draw: [(plot) => this.drawMark(plot)], ready: [(plot) => this.listen(plot)] },
       cursor: { y: false, drag: { x: false, y: false }, sync: { key: syncKey, setSeries: false }, points: { size: 5 } },
       scales: {
         x: { time: false },
