@@ -6,7 +6,6 @@
 import {
   BufferAttribute,
   BufferGeometry,
-  Color,
   DataTexture,
   DoubleSide,
   DynamicDrawUsage,
@@ -37,7 +36,6 @@ void main() {
 
 const FRAGMENT = /* glsl */ `
 uniform sampler2D scale;
-uniform vec3 beyond;
 uniform float opacity;
 varying float vShare;
 varying vec3 vNormal;
@@ -52,7 +50,7 @@ void main() {
   if (dot(normal, towards) < 0.0) normal = -normal;
   vec3 base = texture2D(scale, vec2(clamp(vShare, 0.0, 1.0) * ${((STEPS - 1) / STEPS).toFixed(8)} + ${(0.5 / STEPS).toFixed(8)}, 0.5)).rgb;
   // Past the end of the scale: the last colour, hatched.
-  if (vShare > 1.02 && fract((gl_FragCoord.x + gl_FragCoord.y) / 12.0) < 0.25) base = beyond;
+  if (vShare > 1.02 && fract((gl_FragCoord.x + gl_FragCoord.y) / 12.0) < 0.25) base *= 0.55;
   vec3 key = normalize(vec3(-0.45, 0.7, 0.85));
   float diffuse = max(dot(normal, key), 0.0);
   float sky = 0.5 + 0.5 * normal.y;
@@ -111,7 +109,6 @@ export class Organ {
       side: DoubleSide,
       uniforms: {
         scale: { value: scaleTexture("displacement") },
-        beyond: { value: new Color(0.02, 0.02, 0.03) },
         opacity: { value: 1 },
       },
     });

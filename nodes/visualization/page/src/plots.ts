@@ -122,8 +122,8 @@ export class Plots {
     const x = Math.round(plot.valToPos(this.markS, "x", true));
     const { ctx, bbox } = plot;
     ctx.save();
-    ctx.fillStyle = colour("accent");
-    ctx.fillRect(x - 1, bbox.top, 2, bbox.height);
+    ctx.fillStyle = colour("text");
+    ctx.fillRect(x - 1, bbox.top, 1.5, bbox.height);
     ctx.restore();
   }
 
@@ -171,7 +171,7 @@ export class Plots {
           ticks: { show: false },
           size: 1.6 * rem,
           gap: 4,
-          splits: () => [60, 45, 30, 15, 0].map((ago) => this.endS - ago),
+          splits: () => [45, 30, 15, 0].map((ago) => this.endS - ago),
           values: (_, splits) => splits.map((at) => (at === this.endS ? "now" : `−${Math.round(this.endS - at)} s`)),
         },
         {
