@@ -1,6 +1,6 @@
 // A headless Chromium that looks at the page, notes what it complains about and keeps pictures.
 //
-// RHOMBUS_VIEWER_URL        the page's address; needed
+// RHOMBUS_VIEWER_URL        the page's address; needed, except where a test brings its own node
 // RHOMBUS_CHROMIUM          the browser; /usr/bin/chromium if not said
 // RHOMBUS_VIEWER_ARTEFACTS  folder for pictures; artefacts/ beside this file if not said
 
@@ -24,12 +24,12 @@ const ARGUMENTS = [
 const PATIENCE_MS = 30_000;
 
 export async function launch() {
-  assert.ok(url, "RHOMBUS_VIEWER_URL is not set: the address of the page to look at, such as http://127.0.0.1:8080/");
   return chromium.launch({ executablePath, args: ARGUMENTS });
 }
 
 /** Opens the page and waits for its first picture. `close` fails when the page wrote an error to its console. */
-export async function open(browser, { width = 1280, height = 720, theme = "light", touch = false } = {}) {
+export async function open(browser, { address = url, width = 1280, height = 720, theme = "light", touch = false } = {}) {
+  assert.ok(address, "RHOMBUS_VIEWER_URL is not set: the address of the page to look at, such as http://127.0.0.1:8080/");
   const context = await browser.newContext({
     viewport: { width, height },
     colorScheme: theme,
@@ -45,9 +45,9 @@ export async function open(browser, { width = 1280, height = 720, theme = "light
   page.on("pageerror", (error) => errors.push(String(error)));
   const foreign = [];
   page.on("request", (request) => {
-    if (new URL(request.url()).host !== new URL(url).host && !request.url().startsWith("blob:")) foreign.push(request.url());
+    if (new URL(request.url()).host !== new URL(address).host && !request.url().startsWith("blob:")) foreign.push(request.url());
   });
-  await page.goto(url);
+  await page.goto(address);
   await page.waitForFunction(() => window.rhombus?.first_picture_ms !== null);
   const close = async () => {
     await context.close();

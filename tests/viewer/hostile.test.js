@@ -1,0 +1,129 @@
+// What the page does when its node sends nonsense, changes the scene, hangs or dies. Against a stand-in: a real node must
+// never do most of this.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { keep, launch, open, read, until } from "./browser.js";
+import { FakeNode } from "./fake_node.js";
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser?.close());
+
+/** A stand-in and a page that looks at it; both end with the test. */
+async function visit(t, options) {
+  const node = await new FakeNode(options).listen();
+  const { page, errors, close } = await open(browser, { address: node.url });
+  t.after(async () => {
+    await close();
+    await node.close();
+  });
+  return { node, page, errors };
+}
+
+const counters = (page) => read(page, "counters");
+
+test("garbage, cut, repeated and old frames are ignored and counted; the next good one counts", async (t) => {
+  const { node, page } = await visit(t);
+  const good = node.surface(10);
+  node.send(good);
+  await until(page, () => window.rhombus.moved.length > 0);
+  const moved = (await read(page, "moved")).length;
+  const unknown = new Uint8Array([9, 0, 0, 0, 1, 0, 0, 0]).buffer;
+  const tooMany = node.surface(10).slice(0);
+  new DataView(tooMany).setUint32(12, 0xffffffff, true);
+  const noSuchVertex = node.surfaceOf([4_000_000_000], [0, 0, 0.01]);
+  for (const buffer of [new ArrayBuffer(0), new ArrayBuffer(3), unknown, tooMany, good, node.surface(5).slice(0, 100), noSuchVertex]) node.send(buffer);
+  node.say({ type: "what is this" });
+  for (const socket of node.pages) socket.send("{");
+  await until(page, () => window.rhombus.counters.garbage >= 7 && window.rhombus.counters.otherMesh >= 1);
+  assert.deepEqual([(await counters(page)).outOfOrder, (await read(page, "moved")).length], [1, moved]);
+  node.send(node.surfaceOf([0], [0, 0, -0.004]));
+  await until(page, () => window.rhombus.moved.length === 1);
+});
+
+test("NaN is not drawn, and counted", async (t) => {
+  const { node, page } = await visit(t);
+  node.send(node.surfaceOf([0, 1, 2], [NaN, 0, 0, 0, 0, -0.001, 0, Infinity, 0]));
+  node.send(node.state(3, { probe: [NaN, 0, 0] }));
+  await until(page, () => window.rhombus.counters.notFinite >= 3);
+  assert.deepEqual((await read(page, "moved")).map((one) => one.vertex), [1]);
+});
+
+test("a scene that changes while the page is open: the new body is shown, updates of the old one are not", async (t) => {
+  const { node, page } = await visit(t);
+  const old = node.topologyVersion;
+  node.topologyVersion = 2;
+  node.setBody(800);
+  node.send(node.mesh());
+  await until(page, (vertices) => window.rhombus.mesh.vertices === vertices, node.xyz.length / 3);
+  node.send(node.surfaceOf([1], [0, 0, 0.01], old));
+  await until(page, () => window.rhombus.counters.otherMesh === 1);
+  assert.equal((await read(page, "moved")).length, 0);
+});
+
+test("a body of 200 000 vertices is shown and moves", async (t) => {
+  const { node, page } = await visit(t, { vertices: 200_000 });
+  assert.ok((await read(page, "mesh")).vertices > 190_000);
+  t.diagnostic(`first picture after ${(await read(page, "first_picture_ms")).toFixed(0)} ms`);
+  node.send(node.surface(20));
+  await until(page, () => window.rhombus.moved.length > 1000);
+  await keep(page, "200k");
+});
+
+for (const [vertices, least] of [[3116, 60], [50_000, 30]]) {
+  test(`${vertices} vertices: every update that is sent is received and applied`, async (t) => {
+    const { node, page } = await visit(t, { vertices });
+    node.play(least === 60 ? 60 : 40);
+    await page.waitForTimeout(1500);
+    const sample = () => page.evaluate(() => ({ ...window.rhombus.counters, ms: performance.now() }));
+    const before = await sample();
+    await page.waitForTimeout(4000);
+    const now = await sample();
+    const perSecond = (key) => ((now[key] - before[key]) / (now.ms - before.ms)) * 1000;
+    t.diagnostic(`received ${perSecond("received").toFixed(1)}/s, applied ${perSecond("applied").toFixed(1)}/s, pictures ${perSecond("pictures").toFixed(1)}/s, ${await read(page, "renderer")}`);
+    assert.equal(now.applied, now.received);
+    // What a busy machine could not even send is no fault of the page.
+    assert.ok(perSecond("applied") > 0.5 * least, `${perSecond("applied")}`);
+    assert.equal(now.garbage + now.outOfOrder, 0);
+  });
+}
+
+test("a publisher that is gone is said within a second, and so is its return", async (t) => {
+  const { node, page } = await visit(t);
+  node.publishers = { ...node.publishers, contact_state: 0 };
+  node.say(node.status());
+  await page.getByText(/Nobody publishes the contact/).waitFor({ timeout: 1000 });
+  await keep(page, "publisher-gone");
+  node.publishers = { ...node.publishers, contact_state: 1 };
+  node.say(node.status());
+  await page.getByText(/Nobody publishes the contact/).waitFor({ state: "detached", timeout: 1000 });
+});
+
+test("a node that hangs is said to be silent within about a second, and nothing old looks like new", async (t) => {
+  const { node, page } = await visit(t);
+  await page.getByText("1000", { exact: true }).first().waitFor();
+  node.quiet();
+  await until(page, () => window.rhombus.connection.phase === "silent");
+  assert.equal(await page.locator(".numbers dd").first().textContent(), "–");
+});
+
+test("a node that dies and comes back at the same port: the page says so and reconnects by itself", async () => {
+  const node = await new FakeNode().listen();
+  const { page, errors } = await open(browser, { address: node.url });
+  await node.close();
+  await until(page, () => ["waiting", "connecting"].includes(window.rhombus.connection.phase));
+  assert.match(await page.locator("#connection").textContent(), /lost/);
+  await keep(page, "lost");
+  const again = await new FakeNode({ vertices: 1000 }).listen(node.port);
+  await until(page, () => window.rhombus.connection.phase === "connected");
+  await until(page, (vertices) => window.rhombus.mesh.vertices === vertices, again.xyz.length / 3);
+  assert.equal((await read(page, "connection")).reconnects, 1);
+  assert.match(await page.locator("#connection").textContent(), /Connected/);
+  // A browser itself writes refused connections to the console; the page adds nothing.
+  assert.deepEqual(errors.filter((text) => !/ERR_CONNECTION_REFUSED|WebSocket connection/.test(text)), []);
+  await page.context().close();
+  await again.close();
+});
