@@ -21,6 +21,9 @@ pub enum Backend {
     /// SpaceMouse and its relatives: a virtual handle without motors.
     #[cfg(feature = "spacemouse")]
     SpaceMouse(crate::spacemouse::Settings),
+    /// A hand that follows a pointer, such as the mouse on the viewer's page.
+    #[cfg(feature = "pointer")]
+    Pointer(crate::pointer::Settings),
 }
 
 impl Backend {
@@ -40,6 +43,8 @@ impl Backend {
             Backend::Serial(settings) => Ok(Box::new(crate::serial::open(settings)?)),
             #[cfg(feature = "spacemouse")]
             Backend::SpaceMouse(settings) => Ok(Box::new(crate::spacemouse::open(settings)?)),
+            #[cfg(feature = "pointer")]
+            Backend::Pointer(settings) => Ok(Box::new(crate::pointer::PointerDevice::open(settings)?)),
         }
     }
 

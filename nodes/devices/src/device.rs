@@ -77,6 +77,13 @@ pub struct Wrench {
     pub gripper_force_n: f64,
 }
 
+impl Description {
+    /// Whether there is no hardware: handle and hand are gone with the process.
+    pub fn is_virtual(&self) -> bool {
+        matches!(self.backend, "simulated" | "pointer")
+    }
+}
+
 impl Wrench {
     /// No force at all.
     pub const ZERO: Wrench = Wrench { force_n: DVec3::ZERO, torque_n_m: DVec3::ZERO, gripper_force_n: 0.0 };
@@ -222,6 +229,20 @@ impl Workspace {
     pub fn contains(&self, point: DVec3) -> bool {
         let at = point - self.centre;
         at.truncate().length() <= self.radius_m && at.z.abs() <= 0.5 * self.height_m
+    }
+
+    /// The point of the workspace that is nearest to a finite one, however far away that is. RT safe.
+    pub fn nearest(&self, point: DVec3) -> DVec3 {
+        let far = 1e3 * (self.radius_m + self.height_m);
+        let mut at = point - self.centre;
+        let largest = at.abs().max_element();
+        if largest > far {
+            // Squares of what is larger might overflow.
+            at = at / largest * far;
+        }
+        let half_height_m = 0.5 * self.height_m;
+        let across = at.truncate().clamp_length_max(self.radius_m);
+        self.centre + across.extend(at.z.clamp(-half_height_m, half_height_m))
     }
 }
 

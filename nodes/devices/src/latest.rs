@@ -43,6 +43,14 @@ pub(crate) struct Receiver<T> {
     held: Option<Arc<T>>,
 }
 
+/// Another reading end of the same slot. A value reaches one of them, so one at a time is read.
+#[cfg(feature = "pointer")]
+impl<T> Clone for Receiver<T> {
+    fn clone(&self) -> Receiver<T> {
+        Receiver { slot: self.slot.clone(), held: None }
+    }
+}
+
 impl<T: Send + Sync> Receiver<T> {
     /// The newest value ever sent; none before the first. RT safe.
     pub(crate) fn newest(&mut self) -> Option<&T> {
@@ -50,6 +58,19 @@ impl<T: Send + Sync> Receiver<T> {
             self.held = Some(new);
         }
         self.held.as_deref()
+    }
+
+    /// The newest value, if it was sent since the last look. RT safe.
+    #[cfg(feature = "pointer")]
+    pub(crate) fn news(&mut self) -> Option<&T> {
+        self.held = Some(self.slot.swap(None)?);
+        self.held.as_deref()
+    }
+
+    /// A writing end of the same slot.
+    #[cfg(feature = "pointer")]
+    pub(crate) fn sender(&self) -> Sender<T> {
+        Sender { slot: self.slot.clone(), lent: Vec::with_capacity(4) }
     }
 }
 

@@ -20,10 +20,11 @@
     feature = "force_dimension",
     feature = "haply",
     feature = "serial",
-    feature = "spacemouse"
+    feature = "spacemouse",
+    feature = "pointer"
 )))]
 compile_error!(
-    "no backend: choose one or more of the features simulated, force_dimension, haply, serial, spacemouse"
+    "no backend: choose one or more of the features simulated, force_dimension, haply, serial, spacemouse, pointer"
 );
 
 mod backend;
@@ -33,6 +34,8 @@ mod emergency;
 mod error;
 #[cfg(feature = "force_dimension")]
 pub mod force_dimension;
+#[cfg(any(feature = "simulated", feature = "pointer"))]
+pub mod hand;
 #[cfg(feature = "haply")]
 pub mod haply;
 mod latest;
@@ -40,6 +43,8 @@ mod motor_loop;
 mod motor_thread;
 mod operating;
 mod operation;
+#[cfg(feature = "pointer")]
+pub mod pointer;
 mod realtime;
 mod requests;
 pub mod safety;

@@ -1,31 +1,17 @@
 //! A device that is not there: a delta-like handle with a hand on it that follows a script and feels the force.
 
 mod flaws;
-mod hand;
 mod plan;
 mod script;
-mod wrist;
 
+pub use crate::hand::{HandSettings, LIMITS};
 pub use flaws::Flaws;
-pub use hand::{Hand, HandSettings};
 pub use plan::{Motion, Site, press_slide_grasp_pull};
 pub use script::{Phase, Script, ScriptError, Segment, Target};
 
-use glam::DVec3;
-use rhombus_chain::Pose;
-
-use crate::{Description, Device, DeviceError, DeviceLimits, DeviceState, Workspace, Wrench};
+use crate::hand::HeldHandle;
+use crate::{Description, Device, DeviceError, DeviceState, Wrench};
 use flaws::Measurement;
-use wrist::Wrist;
-
-/// The device that the reference experiment used: a 6-DOF delta, 360 mm in diameter, 300 mm high, 20 N. The torque is that
-/// of the wrists of its class; the gripper has no motor.
-pub const LIMITS: DeviceLimits = DeviceLimits {
-    max_force_n: Some(20.0),
-    max_torque_n_m: Some(0.2),
-    max_gripper_force_n: None,
-    workspace: Workspace { centre: DVec3::ZERO, radius_m: 0.18, height_m: 0.3 },
-};
 
 /// What a simulated device is made from.
 #[derive(Clone, Debug)]
@@ -47,12 +33,8 @@ pub struct Settings {
 pub struct SimulatedDevice {
     description: Description,
     script: Script,
-    period_s: f64,
-    hand: Hand,
-    wrist: Wrist,
+    handle: HeldHandle,
     measurement: Option<Measurement>,
-    commands: u64,
-    enabled: bool,
 }
 
 impl SimulatedDevice {
@@ -62,59 +44,25 @@ impl SimulatedDevice {
     /// [`DeviceError::Setting`] names the parameter that is no mechanics.
     pub fn open(settings: Settings) -> Result<SimulatedDevice, DeviceError> {
         let Settings { hand, script, period_s, flaws } = settings;
-        let hand = Hand::new(hand, period_s, script.at(0.0).position)?;
-        let (steps, step_s) = hand.steps();
-        let wrist = Wrist::new(steps, step_s);
+        let handle = HeldHandle::new(hand, period_s, script.at(0.0).position)?;
         let description = Description {
-            backend: "simulated",
-            model: "scripted hand on a delta".to_owned(),
-            serial: String::new(),
-            firmware: String::new(),
-            limits: LIMITS,
             buttons: vec!["button1".to_owned(), "button2".to_owned()],
-            joints: ["x", "y", "z"].map(str::to_owned).to_vec(),
             has_gripper: true,
-            needs_homing: false,
-            watchdog: None,
-            status_names: &[],
+            ..HeldHandle::description("simulated", "scripted hand on a delta")
         };
-        let measurement = None;
-        let mut device = SimulatedDevice {
-            description,
-            script,
-            period_s,
-            hand,
-            wrist,
-            measurement,
-            commands: 0,
-            enabled: false,
-        };
+        let mut device = SimulatedDevice { description, script, handle, measurement: None };
         device.measurement = Measurement::new(flaws, period_s, device.truth())?;
         Ok(device)
     }
 
     /// What the hand is doing. RT safe.
     pub fn target(&self) -> Target {
-        self.script.at(self.time_s())
+        self.script.at(self.handle.time_s())
     }
 
     /// The handle as it really is. RT safe.
     fn truth(&self) -> DeviceState {
-        let position = self.hand.position();
-        let pose = Pose { translation: position, rotation: self.wrist.orientation() };
-        let mut state = DeviceState {
-            linear_velocity_m_per_s: self.hand.velocity(),
-            angular_velocity_rad_per_s: self.wrist.angular_velocity_rad_per_s(),
-            gripper_rad: Some(self.target().gripper_rad),
-            device_time_ns: (self.time_s() * 1e9).round() as u64,
-            ..DeviceState::at_rest(pose)
-        };
-        state.joints[..3].copy_from_slice(&position.to_array());
-        state
-    }
-
-    fn time_s(&self) -> f64 {
-        self.commands as f64 * self.period_s
+        DeviceState { gripper_rad: Some(self.target().gripper_rad), ..self.handle.state() }
     }
 }
 
@@ -128,25 +76,22 @@ impl Device for SimulatedDevice {
     }
 
     fn command(&mut self, wrench: &Wrench) -> Result<(), DeviceError> {
-        let felt = if self.enabled { *wrench } else { Wrench::ZERO };
-        let (script, start_s) = (&self.script, self.time_s());
-        self.hand.advance(felt.force_n, &LIMITS.workspace, |since_s| script.at(start_s + since_s));
-        self.wrist.advance(felt.torque_n_m);
-        self.commands += 1;
+        let (script, start_s) = (&self.script, self.handle.time_s());
+        self.handle.advance(wrench, |since_s| script.at(start_s + since_s).aim());
         let truth = self.measurement.is_some().then(|| self.truth());
         if let (Some(measurement), Some(truth)) = (&mut self.measurement, truth) {
-            measurement.measure(self.commands, truth);
+            measurement.measure(self.handle.commands(), truth);
         }
         Ok(())
     }
 
     fn enable(&mut self) -> Result<(), DeviceError> {
-        self.enabled = true;
+        self.handle.feel(true);
         Ok(())
     }
 
     fn disable(&mut self) -> Result<(), DeviceError> {
-        self.enabled = false;
+        self.handle.feel(false);
         Ok(())
     }
 }
@@ -154,6 +99,7 @@ impl Device for SimulatedDevice {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
 
     fn device() -> SimulatedDevice {
         flawed_device(Flaws::default())

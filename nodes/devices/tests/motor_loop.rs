@@ -245,6 +245,71 @@ fn the_loop_answers_with_the_laws_force_and_never_calls_the_allocator() {
     assert_eq!(motor.counts().unusable_forces, 0);
 }
 
+/// A device whose thread must leave the allocator alone from the first reading on.
+#[cfg(feature = "pointer")]
+struct Watched(devices::pointer::PointerDevice);
+
+#[cfg(feature = "pointer")]
+impl Device for Watched {
+    fn description(&self) -> &Description {
+        self.0.description()
+    }
+    fn read(&mut self) -> Result<DeviceState, DeviceError> {
+        WATCHED.set(true);
+        self.0.read()
+    }
+    fn command(&mut self, wrench: &Wrench) -> Result<(), DeviceError> {
+        self.0.command(wrench)
+    }
+    fn enable(&mut self) -> Result<(), DeviceError> {
+        self.0.enable()
+    }
+    fn disable(&mut self) -> Result<(), DeviceError> {
+        WATCHED.set(false);
+        self.0.disable()
+    }
+}
+
+#[cfg(feature = "pointer")]
+#[test]
+fn a_hand_that_is_led_by_a_pointer_presses_and_never_calls_the_allocator() {
+    use devices::hand::HandSettings;
+    use devices::pointer::{PointerDevice, Settings, Target, Targets};
+
+    let targets = Targets::new();
+    let mut sender = targets.sender();
+    let settings_of_device = Settings {
+        hand: HandSettings { mass_kg: 0.3, stiffness_n_per_m: 500.0, damping_n_s_per_m: 20.0 },
+        start: DVec3::new(0.0, 0.0, 0.01),
+        max_speed_m_per_s: 0.5,
+        period_s: 1.0 / 4000.0,
+        targets,
+    };
+    let open = move || -> Result<Box<dyn Device>, DeviceError> {
+        Ok(Box::new(Watched(PointerDevice::open(settings_of_device.clone())?)))
+    };
+    let (out, mut drain) = samples(4096);
+    let mut motor = MotorLoop::start(open, settings(), out).unwrap();
+    let before = ALLOCATOR_CALLS.load(SeqCst);
+    let (mut pressed_n, mut last) = (0.0f64, None);
+    // Targets as often as periods, so that every period lets go of an old one; then none, so that the hand lets go.
+    for i in 0..6000u32 {
+        let sample = next(&mut drain);
+        motor.beat();
+        motor.send_law(floor(sample.stamp_ns, chains(500.0)));
+        if i < 2000 {
+            sender.send(Target::new(DVec3::new(0.0, 0.0, 0.002), 0.01).unwrap());
+        }
+        pressed_n = pressed_n.max(sample.wrench.force_n.z);
+        last = Some(sample);
+    }
+    motor.stop().unwrap();
+    assert_eq!(ALLOCATOR_CALLS.load(SeqCst) - before, 0, "allocations or frees in the motor loop's thread");
+    assert!(pressed_n > 0.1, "{pressed_n} N");
+    let last = last.unwrap();
+    assert!(last.wrench.force_n.z < 0.1 * pressed_n, "the hand has let go: {:?}", last.wrench);
+}
+
 #[test]
 fn however_the_loop_is_told_to_end_the_force_never_steps() {
     type Command = fn(&mut MotorLoop);

@@ -8,7 +8,7 @@ use scene::Scene;
 /// The backend that `device.backend` names, with all it needs; the others' settings are not looked at.
 ///
 /// # Errors
-/// The name is of a backend that was left out of this executable, or the simulated hand has nothing to press.
+/// The name is of a backend that was left out of this executable, or a setting does not fit the scene.
 pub(crate) fn backend(scene: &Scene, log: &Log) -> Result<Backend> {
     let serial = || scene.device.serial.clone();
     let p = scene.parameters();
@@ -43,6 +43,8 @@ pub(crate) fn backend(scene: &Scene, log: &Log) -> Result<Backend> {
             full_scale: p.double("spacemouse.full_scale")?,
             deadband: p.double("spacemouse.deadband")?,
         }),
+        #[cfg(feature = "pointer")]
+        "pointer" => Backend::Pointer(pointer_hand(scene, log)?),
         other => anyhow::bail!(
             "device.backend \"{other}\" is not built into this executable; build it with the Cargo feature of that name"
         ),
@@ -53,14 +55,11 @@ pub(crate) fn backend(scene: &Scene, log: &Log) -> Result<Backend> {
 #[cfg(feature = "simulated")]
 fn simulated_hand(scene: &Scene, log: &Log) -> Result<devices::simulated::Settings> {
     use anyhow::Context;
-    use devices::simulated::{self, HandSettings, Motion};
+    use devices::simulated::{self, Motion};
 
-    use crate::press_sites::{Ground, Placement, in_device_metres};
+    use crate::press_sites::{Ground, in_device_metres};
 
-    let loaded = scene.load_body().context("body.mesh")?;
-    for warning in &loaded.warnings {
-        log.warn(&warning.to_string());
-    }
+    let body = body(scene, log)?;
     let settings = &scene.simulated;
     let motion_scale = scene.device.motion_scale;
     let motion = Motion {
@@ -71,11 +70,8 @@ fn simulated_hand(scene: &Scene, log: &Log) -> Result<devices::simulated::Settin
         ..Motion::default()
     };
     let ground = Ground {
-        body: &loaded.body,
-        placement: Placement {
-            base_from_body: scene.device.scene_from_device.inverse() * scene.body.scene_from_body,
-            motion_scale,
-        },
+        body: &body,
+        placement: crate::placement::Placement::new(scene),
         workspace: simulated::LIMITS.workspace,
         motion,
         slide_m: settings.slide_m,
@@ -84,11 +80,7 @@ fn simulated_hand(scene: &Scene, log: &Log) -> Result<devices::simulated::Settin
     let motion = in_device_metres(&motion, motion_scale, travel_height_m);
     let script = simulated::press_slide_grasp_pull(&sites, &motion).context("the simulated hand's script")?;
     Ok(simulated::Settings {
-        hand: HandSettings {
-            mass_kg: settings.mass_kg,
-            stiffness_n_per_m: settings.stiffness_n_per_m,
-            damping_n_s_per_m: settings.damping_n_s_per_m,
-        },
+        hand: hand(scene),
         script,
         period_s: 1.0 / scene.device.rate_hz,
         flaws: simulated::Flaws {
@@ -98,4 +90,52 @@ fn simulated_hand(scene: &Scene, log: &Log) -> Result<devices::simulated::Settin
             latency_s: settings.latency_s,
         },
     })
+}
+
+/// A hand that waits over the body for a pointer to lead it.
+#[cfg(feature = "pointer")]
+fn pointer_hand(scene: &Scene, log: &Log) -> Result<devices::pointer::Settings> {
+    use devices::hand::LIMITS;
+
+    /// Between body and probe, m.
+    const CLEARANCE_M: f64 = 0.02;
+
+    let p = scene.parameters();
+    let (max_speed_m_per_s, fault_m_per_s) = (p.double("pointer.max_speed")?, p.double("safety.max_speed")?);
+    if max_speed_m_per_s >= fault_m_per_s {
+        anyhow::bail!(
+            "pointer.max_speed = {max_speed_m_per_s}: accepted is less than safety.max_speed, {fault_m_per_s} m/s"
+        );
+    }
+    let clearance_m = scene.probe.radius_m + CLEARANCE_M;
+    let placement = crate::placement::Placement::new(scene);
+    Ok(devices::pointer::Settings {
+        hand: hand(scene),
+        start: placement.above(&body(scene, log)?, &LIMITS.workspace, clearance_m),
+        max_speed_m_per_s,
+        period_s: 1.0 / scene.device.rate_hz,
+        targets: devices::pointer::Targets::new(),
+    })
+}
+
+/// The mechanics of a hand that is not real.
+#[cfg(any(feature = "simulated", feature = "pointer"))]
+fn hand(scene: &Scene) -> devices::hand::HandSettings {
+    devices::hand::HandSettings {
+        mass_kg: scene.simulated.mass_kg,
+        stiffness_n_per_m: scene.simulated.stiffness_n_per_m,
+        damping_n_s_per_m: scene.simulated.damping_n_s_per_m,
+    }
+}
+
+/// The body under such a hand.
+#[cfg(any(feature = "simulated", feature = "pointer"))]
+fn body(scene: &Scene, log: &Log) -> Result<rhombus_chain::Body> {
+    use anyhow::Context;
+
+    let loaded = scene.load_body().context("body.mesh")?;
+    for warning in &loaded.warnings {
+        log.warn(&warning.to_string());
+    }
+    Ok(loaded.body)
 }

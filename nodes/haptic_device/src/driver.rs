@@ -19,6 +19,8 @@ use crate::forces::Forces;
 use crate::motor_settings::motor_settings;
 use crate::operating_report::OperatingReport;
 use crate::outbox::Outbox;
+#[cfg(feature = "pointer")]
+use crate::pointer::Pointer;
 use crate::publisher::{Exchange, PublisherThread, lock};
 use crate::report::Health;
 use crate::shared::Shared;
@@ -57,6 +59,13 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
     let outbox = Outbox::new(kit, &shared, clutch_button, pose_is_due)?;
     let desk = Desk::new(kit, &shared, can_carry_itself)?;
     let forces = Forces::new(kit, &shared, &scene, &settings.safety)?;
+    #[cfg(feature = "pointer")]
+    let pointer = match &backend {
+        Backend::Pointer(hand) => {
+            Some(Pointer::new(kit, &scene, &shared.frames.base, hand.targets.sender())?)
+        }
+        _ => None,
+    };
     only_lower_max_force(kit, scene.device.max_force_n);
     let report = OperatingReport::new(&shared.description, &settings.safety);
     report.warn(kit.log());
@@ -73,7 +82,18 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
         description.model, description.backend, scene.device.rate_hz, frames.base
     ));
     let max_force_n = scene.device.max_force_n;
-    Driver { motor, publisher, shared, desk, forces, report, max_force_n }.run(kit)
+    Driver {
+        motor,
+        publisher,
+        shared,
+        desk,
+        forces,
+        #[cfg(feature = "pointer")]
+        pointer,
+        report,
+        max_force_n,
+    }
+    .run(kit)
 }
 
 struct Driver {
@@ -83,6 +103,9 @@ struct Driver {
     shared: Shared,
     desk: Desk,
     forces: Forces,
+    /// None for another backend.
+    #[cfg(feature = "pointer")]
+    pointer: Option<Pointer>,
     report: OperatingReport,
     max_force_n: f64,
 }
@@ -94,7 +117,8 @@ impl Driver {
             let changed = self.turn(kit)?;
             if kit.diagnostics_due() {
                 let health = self.health();
-                kit.publish_diagnostics(self.statuses(&health, &reported))?;
+                let statuses = self.statuses(&health, &reported);
+                kit.publish_diagnostics(statuses)?;
                 reported = health;
             } else if changed {
                 kit.publish_diagnostics(vec![self.operating_status()])?;
@@ -113,6 +137,10 @@ impl Driver {
         }
         self.motor.beat();
         self.desk.take_emergency_stop(kit, &mut self.motor);
+        #[cfg(feature = "pointer")]
+        if let Some(pointer) = &mut self.pointer {
+            pointer.take(kit);
+        }
         if self.forces.take(kit, &mut self.motor) {
             self.desk.follow_again(kit, &mut self.motor);
         }
@@ -133,10 +161,12 @@ impl Driver {
         }
     }
 
-    fn statuses(&self, health: &Health, before: &Health) -> Vec<node_kit::Status> {
+    fn statuses(&mut self, health: &Health, before: &Health) -> Vec<node_kit::Status> {
         let conflicts = self.forces.conflicts();
         let mut statuses = health.statuses(before, &conflicts, &self.motor.scheduling().to_string());
         statuses.push(self.operating_status());
+        #[cfg(feature = "pointer")]
+        statuses.extend(self.pointer.as_mut().map(Pointer::status));
         statuses
     }
 
@@ -154,7 +184,13 @@ impl Driver {
             self.turn(kit)?;
         }
         self.desk.tell_end()?;
-        kit.closing_report(&self.health().closing());
+        #[cfg_attr(not(feature = "pointer"), expect(unused_mut, reason = "nothing to add"))]
+        let mut report = self.health().closing();
+        #[cfg(feature = "pointer")]
+        if let Some(pointer) = &self.pointer {
+            report["pointer"] = pointer.closing();
+        }
+        kit.closing_report(&report);
         ended.context("the motor loop ended; the motors are off")
     }
 }

@@ -75,8 +75,7 @@ impl Freshness {
         if stamp_ns == 0 {
             return if backlog.has_waited { Ok(()) } else { Err(Untimely::Backlog) };
         }
-        let ages_ns = clocks_ns.map(|now_ns| now_ns.saturating_sub(stamp_ns));
-        let age_ns = if ages_ns[0].abs() <= ages_ns[1].abs() { ages_ns[0] } else { ages_ns[1] };
+        let age_ns = age_ns(stamp_ns, clocks_ns);
         if age_ns > self.limit_ns {
             return Err(Untimely::Old(age_ns));
         }
@@ -93,6 +92,12 @@ impl Freshness {
         self.last = Some((stamp_ns, arrived_ns));
         Ok(())
     }
+}
+
+/// The age of a stamp, ns, by the clock that fits best; negative: it is in the future.
+pub(crate) fn age_ns(stamp_ns: i64, clocks_ns: [i64; 2]) -> i64 {
+    let ages_ns = clocks_ns.map(|now_ns| now_ns.saturating_sub(stamp_ns));
+    if ages_ns[0].saturating_abs() <= ages_ns[1].saturating_abs() { ages_ns[0] } else { ages_ns[1] }
 }
 
 impl fmt::Display for Untimely {

@@ -20,6 +20,13 @@ mod now;
 mod operating_report;
 mod operating_state;
 mod outbox;
+#[cfg(any(feature = "simulated", feature = "pointer"))]
+mod placement;
+#[cfg(feature = "pointer")]
+mod pointer;
+#[cfg(feature = "pointer")]
+mod pointer_frames;
+#[cfg(feature = "simulated")]
 mod press_sites;
 mod publisher;
 mod report;

@@ -80,10 +80,10 @@ impl OperatingReport {
     }
 }
 
-/// A device that holds the last force of a driver that was killed. The simulated one is gone with the driver.
+/// A device that holds the last force of a driver that was killed. A virtual one is gone with the driver.
 fn unwatched(description: &Description) -> Option<String> {
     let holds = description.limits.max_force_n.is_some() && description.watchdog.is_none();
-    (holds && description.backend != "simulated").then(|| {
+    (holds && !description.is_virtual()).then(|| {
         format!(
             "{} has no watchdog of its own: if this process is killed, the device keeps its last force; switch it off then",
             description.model

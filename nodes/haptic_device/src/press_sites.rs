@@ -3,8 +3,10 @@
 use devices::Workspace;
 use devices::simulated::{Motion, Site};
 use glam::DVec3;
-use rhombus_chain::{Body, Pose};
+use rhombus_chain::Body;
 use thiserror::Error;
+
+use crate::placement::Placement;
 
 /// Sites of one script: two pairs.
 const SITES: usize = 4;
@@ -31,21 +33,6 @@ pub(crate) struct NothingToPress {
     high_m: [f64; 3],
     radius_m: f64,
     half_height_m: f64,
-}
-
-/// How the device stands to the body: `device_point = base_from_body * body_point / motion_scale`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Placement {
-    /// From the body frame to the frame of the device's base, without the motion scale.
-    pub(crate) base_from_body: Pose,
-    /// Motion in the scene for each metre of motion of the device.
-    pub(crate) motion_scale: f64,
-}
-
-impl Placement {
-    fn to_device(self, point_in_body: DVec3) -> DVec3 {
-        self.base_from_body.transform_point(point_in_body) / self.motion_scale
-    }
 }
 
 /// A body under a device, and the hand's sizes.
@@ -105,15 +92,7 @@ impl Ground<'_> {
     /// Above everything that is under the device.
     fn travel_height_m(&self) -> f64 {
         let Motion { probe_radius_m, clearance_m, .. } = self.motion;
-        let top_m = self
-            .body
-            .mesh()
-            .vertices()
-            .iter()
-            .map(|&vertex| self.placement.to_device(vertex))
-            .filter(|point| point.truncate().length() <= self.workspace.radius_m)
-            .map(|point| point.z)
-            .fold(f64::NEG_INFINITY, f64::max);
+        let top_m = self.placement.top_m(self.body, &self.workspace);
         top_m + (probe_radius_m + 1.5 * clearance_m) / self.placement.motion_scale
     }
 
@@ -247,7 +226,7 @@ mod tests {
     use super::*;
     use devices::simulated::{LIMITS, Phase, press_slide_grasp_pull};
     use glam::DQuat;
-    use rhombus_chain::SurfaceMesh;
+    use rhombus_chain::{Pose, SurfaceMesh};
 
     fn body(kind: scene::BodyKind) -> Body {
         let shape = scene::generate::body(kind, kind.default_vertices());

@@ -41,6 +41,13 @@ impl CommandTopic {
     }
 }
 
+/// Two publishers of one topic, in words that name their nodes and what does not come of it; none for one or nobody.
+pub(crate) fn several(topic: &str, publishers: &[String], what: &str) -> Option<String> {
+    let (count, nodes) = (publishers.len(), publishers.join(", "));
+    (count > 1)
+        .then(|| format!("{topic} has {count} publishers ({nodes}): no {what} from it until there is one"))
+}
+
 /// The publishers of every command topic, as last seen.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sources {
@@ -84,11 +91,8 @@ impl Sources {
 
     fn conflict(&self, topic: CommandTopic) -> Option<String> {
         let own = self.of(topic);
-        if own.len() > 1 {
-            let (name, count, nodes) = (topic.name(), own.len(), own.join(", "));
-            return Some(format!(
-                "{name} has {count} publishers ({nodes}): no force from it until there is one"
-            ));
+        if let Some(conflict) = several(topic.name(), own, "force") {
+            return Some(conflict);
         }
         let is_wrench = CommandTopic::WRENCH.contains(&topic) && !own.is_empty();
         let mut nodes: Vec<&str> = self.wrench_publishers().map(|(_, node)| node).collect();

@@ -7,7 +7,7 @@ use crate::Scene;
 impl Scene {
     /// Rate, delay and damping of the scene's device.
     ///
-    /// The simulated device has the damping `simulated.damping`; of any other the scene knows none. Motors that follow the
+    /// A simulated hand has the damping `simulated.damping`; of any other the scene knows none. Motors that follow the
     /// contact law evaluate it for the position of their own period: no delay along the normal. A force from `servo_cf`
     /// answers the position of an earlier period: one period at the least, and whatever the transport takes beyond that.
     pub fn haptic_loop(&self) -> HapticLoop {
@@ -15,7 +15,7 @@ impl Scene {
         HapticLoop {
             rate_hz: device.rate_hz,
             delay_s: if device.force_source == "servo_cf" { 1.0 / device.rate_hz } else { 0.0 },
-            damping_n_s_per_m: (device.backend == "simulated").then_some(self.simulated.damping_n_s_per_m),
+            damping_n_s_per_m: device.is_virtual().then_some(self.simulated.damping_n_s_per_m),
             rendered_damping_n_s_per_m: 0.0,
         }
     }

@@ -111,6 +111,13 @@ pub struct DeviceSettings {
     pub wait_for_readers: usize,
 }
 
+impl DeviceSettings {
+    /// Whether the hand on it is simulated, whoever leads it.
+    pub fn is_virtual(&self) -> bool {
+        matches!(self.backend.as_str(), "simulated" | "pointer")
+    }
+}
+
 /// `simulated.*`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimulatedSettings {

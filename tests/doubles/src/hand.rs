@@ -1,6 +1,6 @@
 //! A hand that rests at one place, then moves to another and presses there.
 
-use devices::simulated::{Hand, HandSettings, Target};
+use devices::hand::{Aim, Hand, HandSettings};
 use devices::{DeviceError, Workspace};
 use glam::DVec3;
 
@@ -54,15 +54,13 @@ impl HandArguments {
         Ok(true)
     }
 
-    fn target(&self, time_s: f64) -> Target {
+    fn aim(&self, time_s: f64) -> Aim {
         let way = self.to - self.from;
         let done = ((time_s - self.after_s) / self.during_s).clamp(0.0, 1.0);
         let moves = done > 0.0 && done < 1.0;
-        Target {
+        Aim {
             position: self.from + done * way,
             velocity_m_per_s: if moves { way / self.during_s } else { DVec3::ZERO },
-            gripper_rad: 0.0,
-            phase: devices::simulated::Phase::Press,
         }
     }
 }
@@ -103,7 +101,7 @@ impl PressingHand {
     /// One step under a constant force, N.
     pub fn advance(&mut self, force_n: DVec3) {
         let (arguments, start_s) = (&self.arguments, self.time_s);
-        self.hand.advance(force_n, &self.workspace, |since_s| arguments.target(start_s + since_s));
+        self.hand.advance(force_n, &self.workspace, |since_s| arguments.aim(start_s + since_s));
         self.time_s += self.step_s;
     }
 

@@ -70,7 +70,7 @@ fn watchdog(description: &Description) -> Finding {
             .held_against("at most 50 ms")
             .with("watchdog_s", time.as_secs_f64())
         }
-        None if has_motors && description.backend != "simulated" => Finding::warning(
+        None if has_motors && !description.is_virtual() => Finding::warning(
             "watchdog",
             "the device has none: a driver that is killed while it pushes leaves its force on",
             "keep the device's power switch within reach",

@@ -3,6 +3,8 @@
 use glam::DVec3;
 use thiserror::Error;
 
+use crate::hand::Aim;
+
 /// What the hand is doing. For logs and tests; the motion is in the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Phase {
@@ -52,6 +54,13 @@ pub struct Target {
     pub gripper_rad: f64,
     /// The segment's phase.
     pub phase: Phase,
+}
+
+impl Target {
+    /// Its motion alone.
+    pub(super) fn aim(&self) -> Aim {
+        Aim { position: self.position, velocity_m_per_s: self.velocity_m_per_s }
+    }
 }
 
 /// Why segments are not a script.

@@ -68,20 +68,13 @@ impl VirtualHandle {
         let step_s = step_s.clamp(0.0, LONGEST_STEP_S);
         let wanted = self.rate.linear_m_per_s * self.rate.turned(cap.translation);
         let before = self.pose.translation;
-        self.pose.translation = self.inside(before + wanted * step_s);
+        self.pose.translation = self.workspace.nearest(before + wanted * step_s);
         // At the edge the handle does not move as fast as the cap asks for.
         self.linear_velocity_m_per_s =
             if step_s > 0.0 { (self.pose.translation - before) / step_s } else { wanted };
         self.angular_velocity_rad_per_s = self.rate.angular_rad_per_s * self.rate.turned(cap.rotation);
         let turn = DQuat::from_scaled_axis(self.angular_velocity_rad_per_s * step_s);
         self.pose.rotation = (turn * self.pose.rotation).normalize();
-    }
-
-    fn inside(&self, point: DVec3) -> DVec3 {
-        let at = point - self.workspace.centre;
-        let half_height_m = 0.5 * self.workspace.height_m;
-        let across = at.truncate().clamp_length_max(self.workspace.radius_m);
-        self.workspace.centre + across.extend(at.z.clamp(-half_height_m, half_height_m))
     }
 }
 

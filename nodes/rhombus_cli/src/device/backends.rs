@@ -6,12 +6,14 @@ use std::time::Duration;
 use anyhow::bail;
 use clap::{Args, ValueHint};
 use devices::simulated::{Flaws, HandSettings, Phase, Script, Segment};
-use devices::{Backend, DeviceError, Found, force_dimension, haply, serial, simulated, spacemouse};
+use devices::{Backend, DeviceError, Found, force_dimension, haply, pointer, serial, simulated, spacemouse};
 
 /// Backends of real devices, in the order in which they are asked.
 pub(super) const REAL: [&str; 4] = ["force_dimension", "haply", "serial", "spacemouse"];
-/// The one that is always there.
+/// The scripted hand.
 pub(super) const SIMULATED: &str = "simulated";
+/// The hand that a pointer leads. Both are always there.
+pub(super) const POINTER: &str = "pointer";
 
 /// Where backends look for their devices.
 #[derive(Args)]
@@ -34,17 +36,16 @@ impl Places {
     /// The backend of this name, to open the device with this serial number at this rate.
     pub(super) fn backend(&self, name: &str, serial: &str, rate_hz: f64) -> anyhow::Result<Backend> {
         Ok(match name {
-            SIMULATED => {
-                if !serial.is_empty() {
-                    bail!("the simulated device has no serial number; leave out {serial:?}");
-                }
-                Backend::Simulated(resting_hand(rate_hz)?)
+            SIMULATED | POINTER if !serial.is_empty() => {
+                bail!("the {name} device has no serial number; leave out {serial:?}");
             }
+            SIMULATED => Backend::Simulated(resting_hand(rate_hz)?),
+            POINTER => Backend::Pointer(hand_without_a_pointer(rate_hz)),
             "force_dimension" => Backend::ForceDimension(self.force_dimension(serial, rate_hz)),
             "haply" => Backend::Haply(self.haply(serial)),
             "serial" => Backend::Serial(self.serial(serial)),
             "spacemouse" => Backend::SpaceMouse(spacemouse(serial)),
-            other => bail!("{other:?} is no device; accepted: {}, {SIMULATED}", REAL.join(", ")),
+            other => bail!("{other:?} is no device; accepted: {}, {SIMULATED}, {POINTER}", REAL.join(", ")),
         })
     }
 
@@ -96,12 +97,25 @@ fn spacemouse(serial: &str) -> spacemouse::Settings {
     spacemouse::Settings { serial: serial.to_owned(), ..spacemouse::Settings::default() }
 }
 
+const HAND: HandSettings = HandSettings { mass_kg: 0.3, stiffness_n_per_m: 500.0, damping_n_s_per_m: 20.0 };
+
+/// A hand that nobody leads: it resists by its damper.
+fn hand_without_a_pointer(rate_hz: f64) -> pointer::Settings {
+    pointer::Settings {
+        hand: HAND,
+        start: glam::DVec3::ZERO,
+        max_speed_m_per_s: 0.5,
+        period_s: 1.0 / rate_hz,
+        targets: pointer::Targets::new(),
+    }
+}
+
 /// A hand that stays in the middle of the workspace.
 fn resting_hand(rate_hz: f64) -> anyhow::Result<simulated::Settings> {
     let rest =
         Segment { phase: Phase::Hold, duration_s: 1.0, path: vec![glam::DVec3::ZERO], gripper_rad: 0.5 };
     Ok(simulated::Settings {
-        hand: HandSettings { mass_kg: 0.3, stiffness_n_per_m: 500.0, damping_n_s_per_m: 20.0 },
+        hand: HAND,
         script: Script::new(vec![rest])?,
         period_s: 1.0 / rate_hz,
         flaws: Flaws::default(),

@@ -8,7 +8,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::access::{self, DeviceFile, RULES_REMEDY};
-use super::backends::{Places, REAL, SIMULATED, told};
+use super::backends::{POINTER, Places, REAL, SIMULATED, told};
 use crate::output;
 
 /// What is connected, and what could not be asked
@@ -118,7 +118,11 @@ impl std::fmt::Display for Listing {
                 writeln!(text, "{:<28}-> {remedy}", "")?;
             }
         }
-        writeln!(text, "{SIMULATED:<28}built in, no hardware needed")?;
+        writeln!(text, "{SIMULATED:<28}built in, no hardware needed: a scripted hand")?;
+        writeln!(
+            text,
+            "{POINTER:<28}built in, no hardware needed: the same hand, led in a session by the mouse on the viewer's page"
+        )?;
         writeln!(text)?;
         match &self.udev_rules.installed {
             Some(path) => writeln!(text, "udev rules: {}", path.display())?,

@@ -32,7 +32,7 @@ pub enum TopicState {
 type Row = (&'static str, &'static str, &'static str, &'static str);
 
 /// One of each for every device.
-const DEVICE: [Row; 22] = [
+const DEVICE: [Row; 23] = [
     (topic::MEASURED_CP, "geometry_msgs/PoseStamped", "haptic_device", "deformation, visualization"),
     ("measured_cv", "geometry_msgs/TwistStamped", "haptic_device", ""),
     ("measured_cf", "geometry_msgs/WrenchStamped", "haptic_device", ""),
@@ -43,6 +43,7 @@ const DEVICE: [Row; 22] = [
     ("operating_state", "crtk_msgs/OperatingState", "haptic_device", "visualization"),
     ("state_command", "crtk_msgs/StringStamped", "anyone", "haptic_device"),
     ("emergency_stop", "std_msgs/Bool", "anyone", "haptic_device"),
+    (topic::POINTER_TARGET, "geometry_msgs/PoseStamped", "visualization", "haptic_device"),
     ("hold", "std_msgs/Empty", "anyone", "haptic_device"),
     ("free", "std_msgs/Empty", "anyone", "haptic_device"),
     ("use_gravity_compensation", "std_msgs/Bool", "anyone", "haptic_device"),
@@ -94,13 +95,17 @@ pub(super) fn planned(scene: &Scene) -> Vec<PlannedTopic> {
 }
 
 fn state(scene: &Scene, topic: &str) -> TopicState {
-    let is_simulated = scene.device.backend == "simulated";
-    if topic.ends_with("gripper/servo_jf") && is_simulated {
-        return TopicState::Absent("the gripper of the simulated device has no motor");
+    let is_virtual = scene.device.is_virtual();
+    if topic.ends_with("gripper/servo_jf") && is_virtual {
+        return TopicState::Absent("a simulated hand has no gripper with a motor");
     }
     match topic.rsplit('/').next().unwrap_or_default() {
-        "use_gravity_compensation" if is_simulated => {
-            TopicState::Absent("the simulated device has no weight")
+        "use_gravity_compensation" if is_virtual => TopicState::Absent("a simulated hand has no weight"),
+        "measured_js" if topic.ends_with("gripper/measured_js") && scene.device.backend == "pointer" => {
+            TopicState::Absent("the pointer's hand has no gripper; it holds by grasp")
+        }
+        "pointer_target" if scene.device.backend != "pointer" => {
+            TopicState::Absent("device.backend is not pointer")
         }
         "surface_displacement" if scene.surface.rate_hz <= 0.0 => TopicState::Absent("surface.rate is 0"),
         "buttons_heard" | "transforms_heard" if !scene.replay.lockstep => {

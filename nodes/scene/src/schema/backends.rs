@@ -1,4 +1,5 @@
-//! `force_dimension.*`, `haply.*`, `serial.*`, `spacemouse.*`: what the backends of real devices need to know.
+//! `force_dimension.*`, `haply.*`, `serial.*`, `spacemouse.*`, `pointer.*`: what the backends need to know. The hand of the
+//! pointer is that of `simulated.*`.
 
 use super::row::{integer, number, text};
 use super::{Check, ParameterSpec};
@@ -56,5 +57,19 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         0.03,
         Check::WithinBelow(0.0, 1.0),
         "Share of full deflection below which an axis is taken as released.",
+    ),
+    number(
+        "pointer.max_speed",
+        "m/s",
+        0.5,
+        Check::Within(0.001, 1.0),
+        "The hand follows pointer_target no faster than this; less than safety.max_speed.",
+    ),
+    number(
+        "pointer.timeout",
+        "s",
+        0.3,
+        Check::Within(0.02, 10.0),
+        "A target on pointer_target counts for this long after its stamp; then the hand lets go.",
     ),
 ];

@@ -13,11 +13,11 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         kind: Kind::String,
         unit: "",
         default: DefaultValue::String("simulated"),
-        check: Check::OneOf(&["simulated", "force_dimension", "haply", "serial", "spacemouse"]),
+        check: Check::OneOf(&["simulated", "force_dimension", "haply", "serial", "spacemouse", "pointer"]),
         length: Length::Any,
         live: false,
         owners: DRIVER,
-        help: "What stands behind the driver; simulated is a scripted hand that feels the force.",
+        help: "What stands behind the driver; simulated is a scripted hand that feels the force, pointer one that follows pointer_target.",
     },
     text("device.serial", "", "Which of several connected devices: its serial number; \"\": the only one."),
     ParameterSpec {

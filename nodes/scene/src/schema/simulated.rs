@@ -1,4 +1,4 @@
-//! `simulated.*`: the scripted hand of the simulated backend.
+//! `simulated.*`: the scripted hand of the simulated backend; mass, stiffness and damping are those of the pointer's hand too.
 
 use super::row::number;
 use super::{Check, ParameterSpec};

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::hand::transition;
+use super::transition;
 
 /// The hand's resistance to a turn, the same about all axes.
 const STIFFNESS_N_M_PER_RAD: f64 = 1.0;

@@ -1,11 +1,25 @@
-//! The hand that holds the handle: a mass on a spring and a damper whose other end follows a script.
+//! The hand that holds the handle of a device that is not there: a mass on a spring and a damper whose other end is where
+//! the hand means to be. A hand that has let go is the mass and a damper to where it is.
+
+mod held_handle;
+mod wrist;
 
 use glam::DVec3;
 
-use super::Target;
-use crate::{DeviceError, Workspace};
+use crate::{DeviceError, DeviceLimits, Workspace};
 
-/// The longest integration step, s. The target is taken as moving evenly during one step.
+pub(crate) use held_handle::HeldHandle;
+
+/// The device that the reference experiment used: a 6-DOF delta, 360 mm in diameter, 300 mm high, 20 N. The torque is that
+/// of the wrists of its class; the gripper has no motor.
+pub const LIMITS: DeviceLimits = DeviceLimits {
+    max_force_n: Some(20.0),
+    max_torque_n_m: Some(0.2),
+    max_gripper_force_n: None,
+    workspace: Workspace { centre: DVec3::ZERO, radius_m: 0.18, height_m: 0.3 },
+};
+
+/// The longest integration step, s. The aim is taken as moving evenly during one step.
 const LONGEST_STEP_S: f64 = 0.25e-3;
 
 /// The mechanics of a hand on the handle.
@@ -41,9 +55,18 @@ impl HandSettings {
     }
 }
 
-/// A hand in motion: the mechanics that the simulated device and the doubles of real devices share.
+/// Where a hand means to be at one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aim {
+    /// In the device frame, m.
+    pub position: DVec3,
+    /// Its derivative.
+    pub velocity_m_per_s: DVec3,
+}
+
+/// A hand in motion: the mechanics that the devices that are not there and the doubles of real devices share.
 ///
-/// With the target at `p`, moving at `w`, and the device pushing with `f`, the hand at `x`, moving at `v`, obeys
+/// With the aim at `p`, moving at `w`, and the device pushing with `f`, the hand at `x`, moving at `v`, obeys
 /// `m v' = k (p - x) + c (w - v) + f`. For a step in which `p`, `w` and `f` stand still the distance from the
 /// equilibrium `p + (c w + f)/k` and the velocity are carried over by a constant 2 x 2 matrix, the exponential of the
 /// system. So every step is exact, and no stiffness, mass or damping makes the integration unstable.
@@ -53,6 +76,7 @@ pub struct Hand {
     steps: u32,
     step_s: f64,
     transition: [[f64; 2]; 2],
+    coast: Coast,
     position: DVec3,
     velocity: DVec3,
 }
@@ -82,6 +106,7 @@ impl Hand {
                 settings.damping_n_s_per_m / settings.mass_kg,
                 step_s,
             ),
+            coast: Coast::new(settings.damping_n_s_per_m, settings.mass_kg, step_s),
             position,
             velocity: DVec3::ZERO,
         })
@@ -98,21 +123,32 @@ impl Hand {
     }
 
     /// How a period is divided: steps, and the time of one, s.
-    pub(super) fn steps(&self) -> (u32, f64) {
+    fn steps(&self) -> (u32, f64) {
         (self.steps, self.step_s)
     }
 
-    /// One period under a constant force; `target_at` gives the target at a time since the period began, s. RT safe.
-    pub fn advance(&mut self, force_n: DVec3, workspace: &Workspace, target_at: impl Fn(f64) -> Target) {
+    /// One period under a constant force; `aim_at` gives the aim at a time since the period began, s. RT safe.
+    pub fn advance(&mut self, force_n: DVec3, workspace: &Workspace, aim_at: impl Fn(f64) -> Aim) {
         let HandSettings { stiffness_n_per_m, damping_n_s_per_m, .. } = self.settings;
         let [[ee, ev], [ve, vv]] = self.transition;
         for step in 0..self.steps {
-            let target = target_at((f64::from(step) + 0.5) * self.step_s);
+            let aim = aim_at((f64::from(step) + 0.5) * self.step_s);
             let equilibrium =
-                target.position + (damping_n_s_per_m * target.velocity_m_per_s + force_n) / stiffness_n_per_m;
+                aim.position + (damping_n_s_per_m * aim.velocity_m_per_s + force_n) / stiffness_n_per_m;
             let offset = self.position - equilibrium;
             self.position = equilibrium + ee * offset + ev * self.velocity;
             self.velocity = ve * offset + vv * self.velocity;
+            self.stop_at_the_edge(workspace);
+        }
+    }
+
+    /// One period of a hand that means to be nowhere, under a constant force: `m v' = -c v + f`. RT safe.
+    pub fn coast(&mut self, force_n: DVec3, workspace: &Workspace) {
+        let Coast { kept, way_s, push_s2 } = self.coast;
+        let acceleration = force_n / self.settings.mass_kg;
+        for _ in 0..self.steps {
+            self.position += way_s * self.velocity + push_s2 * acceleration;
+            self.velocity = kept * self.velocity + way_s * acceleration;
             self.stop_at_the_edge(workspace);
         }
     }
@@ -144,11 +180,35 @@ impl Hand {
     }
 }
 
+/// What one step does to a hand that has let go: exact, and the same for every step.
+///
+/// With `a = c/m` and the step `t`, the velocity keeps `e^(-a t)` of itself. Its way is `(1 - e^(-a t))/a` times the velocity,
+/// and an acceleration adds `(t - way)/a` to the place and `way` to the velocity.
+#[derive(Clone, Copy, Debug)]
+struct Coast {
+    kept: f64,
+    way_s: f64,
+    push_s2: f64,
+}
+
+impl Coast {
+    fn new(damping_n_s_per_m: f64, mass_kg: f64, t: f64) -> Coast {
+        let a = damping_n_s_per_m / mass_kg;
+        let x = a * t;
+        if x < 1e-4 {
+            let way_s = t * (1.0 - x / 2.0 + x * x / 6.0);
+            return Coast { kept: libm::exp(-x), way_s, push_s2: t * t * (0.5 - x / 6.0 + x * x / 24.0) };
+        }
+        let way_s = -libm::expm1(-x) / a;
+        Coast { kept: libm::exp(-x), way_s, push_s2: (t - way_s) / a }
+    }
+}
+
 /// The exponential of `[[0, 1], [-stiffness, -damping]] t`, both divided by the mass.
 ///
 /// With `s = damping/2` and `d = s^2 - stiffness` it is `C I + S (A + s I)`, where `C = e^(-s t) cosh(sqrt(d) t)` and
 /// `S = e^(-s t) sinh(sqrt(d) t)/sqrt(d)`; the exponents are taken together, so nothing overflows.
-pub(super) fn transition(stiffness: f64, damping: f64, t: f64) -> [[f64; 2]; 2] {
+fn transition(stiffness: f64, damping: f64, t: f64) -> [[f64; 2]; 2] {
     let s = 0.5 * damping;
     let d = s * s - stiffness;
     let (c, sh) = if d.abs() * t * t < 1e-12 {
@@ -170,20 +230,19 @@ pub(super) fn transition(stiffness: f64, damping: f64, t: f64) -> [[f64; 2]; 2] 
 
 #[cfg(test)]
 mod tests {
-    use super::super::Phase;
     use super::*;
     use proptest::prelude::*;
 
-    const WORKSPACE: Workspace = Workspace { centre: DVec3::ZERO, radius_m: 0.18, height_m: 0.3 };
+    const WORKSPACE: Workspace = LIMITS.workspace;
     const HAND: HandSettings =
         HandSettings { mass_kg: 0.3, stiffness_n_per_m: 500.0, damping_n_s_per_m: 20.0 };
 
-    fn still(position: DVec3) -> Target {
-        Target { position, velocity_m_per_s: DVec3::ZERO, gripper_rad: 0.5, phase: Phase::Hold }
+    fn still(position: DVec3) -> Aim {
+        Aim { position, velocity_m_per_s: DVec3::ZERO }
     }
 
     #[test]
-    fn a_hand_at_rest_on_its_target_stays_there() {
+    fn a_hand_at_rest_on_its_aim_stays_there() {
         let at = DVec3::new(0.01, -0.02, 0.03);
         let mut hand = Hand::new(HAND, 1e-3, at).unwrap();
         for _ in 0..1000 {
@@ -204,7 +263,7 @@ mod tests {
 
     #[test]
     fn pressing_a_spring_wall_ends_at_the_static_equilibrium() {
-        // Target 8 mm inside a wall z < 0 of 300 N/m: k (d - x) = K x, so x = 500 * 8 mm / (500 + 300) = 5 mm.
+        // Aim 8 mm inside a wall z < 0 of 300 N/m: k (d - x) = K x, so x = 500 * 8 mm / (500 + 300) = 5 mm.
         let wall_n_per_m = 300.0;
         let mut hand = Hand::new(HAND, 1e-3, DVec3::new(0.0, 0.0, 0.01)).unwrap();
         for _ in 0..3000 {
@@ -229,15 +288,15 @@ mod tests {
     }
 
     #[test]
-    fn an_unloaded_hand_keeps_up_with_a_target_that_moves_evenly() {
+    fn an_unloaded_hand_keeps_up_with_an_aim_that_moves_evenly() {
         // In steady motion k (p - x) + c (w - v) = 0 with v = w: no lag.
         let speed = DVec3::new(0.1, 0.0, 0.0);
         let mut hand = Hand::new(HAND, 1e-3, DVec3::ZERO).unwrap();
         for tick in 0..1000 {
             let start_s = f64::from(tick) * 1e-3;
-            hand.advance(DVec3::ZERO, &WORKSPACE, |since_s| Target {
+            hand.advance(DVec3::ZERO, &WORKSPACE, |since_s| Aim {
+                position: speed * (start_s + since_s),
                 velocity_m_per_s: speed,
-                ..still(speed * (start_s + since_s))
             });
         }
         assert!((hand.position() - speed).length() < 1e-7, "{}", hand.position());
@@ -253,6 +312,28 @@ mod tests {
             assert!(hand.position().z >= -0.5 * WORKSPACE.height_m);
         }
         assert!(hand.velocity().length() < 1e-6);
+    }
+
+    #[test]
+    fn a_hand_that_has_let_go_is_pushed_away_and_comes_to_the_speed_that_its_damper_allows() {
+        let mut hand = Hand::new(HAND, 1e-3, DVec3::ZERO).unwrap();
+        let push_n = DVec3::new(0.0, 0.0, 0.5);
+        for _ in 0..1000 {
+            hand.coast(push_n, &WORKSPACE);
+        }
+        // 0.5 N against 20 N s/m. The way lags behind by one time constant, m/c = 15 ms.
+        assert!((hand.velocity() - DVec3::new(0.0, 0.0, 0.025)).length() < 1e-12);
+        assert!((hand.position().z - 0.025 * (1.0 - 0.015)).abs() < 1e-9, "{}", hand.position());
+    }
+
+    #[test]
+    fn without_a_damper_a_hand_that_has_let_go_falls_freely() {
+        let settings = HandSettings { damping_n_s_per_m: 0.0, ..HAND };
+        let mut hand = Hand::new(settings, 1e-3, DVec3::ZERO).unwrap();
+        for _ in 0..100 {
+            hand.coast(DVec3::new(0.3, 0.0, 0.0), &WORKSPACE);
+        }
+        assert!((hand.velocity().x - 0.1).abs() < 1e-12 && (hand.position().x - 0.005).abs() < 1e-12);
     }
 
     #[test]
@@ -285,12 +366,16 @@ mod tests {
                 0.5 * settings.mass_kg * hand.velocity.length_squared()
                     + 0.5 * settings.stiffness_n_per_m * hand.position.length_squared()
             };
+            let mut free = hand.clone();
             let mut before = energy(&hand);
             for _ in 0..50 {
                 hand.advance(DVec3::ZERO, &wide, |_| still(DVec3::ZERO));
                 let now = energy(&hand);
                 prop_assert!(now <= before * (1.0 + 1e-9) + 1e-300, "{before} -> {now}");
                 before = now;
+                let speed = free.velocity.length();
+                free.coast(DVec3::ZERO, &wide);
+                prop_assert!(free.velocity.length() <= speed);
             }
         }
     }
