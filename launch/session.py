@@ -29,6 +29,7 @@ READY_TIMEOUT_S = 20.0
 STOP_TIMEOUT_S = 10.0
 # A session without a real device ends by itself.
 SIMULATED_DURATION_S = 15.0
+VIEWER_LINE = re.compile(r"\bviewer: (https?://\S+)$", re.MULTILINE)
 ERROR_LINE = re.compile(r"^\[(?:ERROR|FATAL)\](?: \[[^\]]*\])*: (.*)$", re.MULTILINE)
 
 
@@ -50,6 +51,11 @@ class NodeProcess:
 
     def is_ready(self):
         return "ready:" in self.text()
+
+    def viewer(self):
+        """Address of the page that the node serves; none when it serves none."""
+        found = VIEWER_LINE.search(self.text())
+        return found and found[1]
 
     def has_ended(self):
         return self.process.poll() is not None
@@ -172,6 +178,19 @@ class Session:
             time.sleep(0.02)
         return True
 
+    def tell_viewer(self):
+        """Say where to look, and where to press with the mouse."""
+        address = next((address for node in self.others if (address := node.viewer())), None)
+        if address:
+            print(f"viewer: {address}", flush=True)
+        if self.plan.has_pointer:
+            print(
+                "drag presses the organ, Shift-drag holds and pulls it, Ctrl-C ends the session"
+                if address
+                else "no page is served (viewer.enabled, or a build without the viewer): publish pointer_target to lead the hand",
+                flush=True,
+            )
+
     def run(self, monitor):
         """Until the time is up, the user ends it, or a node that the session needs is gone."""
         start = time.monotonic()
@@ -251,6 +270,7 @@ def main():
     try:
         started = session.start()
         if started:
+            session.tell_viewer()
             session.run(monitor)
     finally:
         reports = session.stop()

@@ -14,6 +14,7 @@ REPOSITORY = Path(__file__).resolve().parent.parent
 PROGRAMS = REPOSITORY / "target" / "release"
 DRIVER = "haptic_device"
 SIMULATED = "simulated"
+POINTER = "pointer"
 # What other options say.
 NOT_SETTABLE = {"devices": "--device", "device.backend": "--device", "device.serial": "--device"}
 
@@ -120,6 +121,10 @@ class Plan:
     @property
     def has_only_simulated_devices(self):
         return all(device.backend == SIMULATED for device in self.devices)
+
+    @property
+    def has_pointer(self):
+        return any(device.backend == POINTER for device in self.devices)
 
     def drivers(self, readers):
         """One for each device; each waits for as many readers of its poses."""

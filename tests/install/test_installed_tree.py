@@ -15,7 +15,7 @@ EXECUTABLES = ["bag_replay", "deformation", "haptic_device", "rhombus", "visuali
 LAUNCH_FILES = ["session.launch.xml", "replay.launch.xml"]
 SESSION_ARGUMENTS = [
     *("device", "serial", "second_device", "second_serial", "device_config"),
-    *("scene", "mesh", "namespace", "record", "rviz", "use_sim_time", "log_level"),
+    *("scene", "mesh", "namespace", "record", "rviz", "foxglove", "use_sim_time", "log_level"),
 ]
 
 
@@ -73,7 +73,7 @@ def test_the_session_launch_file_offers_every_backend_for_both_devices(prefix):
     listing = subprocess.run([rhombus, "parameters", "--json"], capture_output=True, text=True, check=True)
     accepted = next(row["accepted"] for row in yaml.safe_load(listing.stdout) if row["name"] == "device.backend")
     backends = re.findall(r'"(\w+)"', accepted)
-    assert len(backends) == 5
+    assert len(backends) == 6
     root = ElementTree.parse(REPOSITORY / "launch" / "session.launch.xml").getroot()
     for name, none in (("device", []), ("second_device", [""])):
         argument = next(each for each in root.iter("arg") if each.get("name") == name)
@@ -87,12 +87,14 @@ def test_every_parameter_in_the_launch_files_is_one_that_the_nodes_know(prefix):
     known = {row["name"] for row in yaml.safe_load(listing.stdout)}
     for name in LAUNCH_FILES:
         root = ElementTree.parse(REPOSITORY / "launch" / name).getroot()
-        used = {node.get("name") for tag in ("param", "set_parameter") for node in root.iter(tag)}
+        used = {each.get("name") for each in root.iter("set_parameter")}
+        ours = (node for node in root.iter("node") if node.get("pkg") == "rhombus_haptics")
+        used |= {each.get("name") for node in ours for each in node.iter("param")}
         assert used <= known, f"{name}: {sorted(used - known)}"
 
 
-def test_scenes_are_installed(prefix):
+def test_scenes_and_layouts_are_installed(prefix):
     share = Path(get_package_share_directory("rhombus_haptics"))
-    assert sorted(p.name for p in (REPOSITORY / "config").rglob("*.yaml")) == sorted(
-        p.name for p in (share / "config").rglob("*.yaml")
-    )
+    for ending in ("yaml", "rviz", "json"):
+        ours, installed = (sorted(p.name for p in (root / "config").rglob(f"*.{ending}")) for root in (REPOSITORY, share))
+        assert ours and ours == installed

@@ -64,6 +64,17 @@ fn the_simulated_device_is_well_and_says_what_it_is() {
 }
 
 #[test]
+fn the_pointers_hand_is_there_without_a_pointer_and_is_listed_as_built_in() {
+    let (code, report) = check(&["pointer"]);
+    is_well(code, &report);
+    assert_eq!(report["device"]["backend"], "pointer");
+    let (code, report) = check_with(&["pointer"], PUSH);
+    is_well(code, &report);
+    assert_eq!(line(&report, "forces")["verdict"], "ok", "{report}");
+    assert!(Folder::new().refusal(&["device", "check", "pointer:7"]).contains("no serial number"));
+}
+
+#[test]
 fn as_text_each_line_has_its_verdict_and_each_warning_its_remedy() {
     let text = Folder::new().success(&["device", "check", "simulated", "--rate", "100", "--seconds", "0.2"]);
     let mut lines = text.lines().peekable();
