@@ -4,8 +4,10 @@ import os
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import time
+import urllib.request
 from pathlib import Path
 
 import pytest
@@ -204,6 +206,34 @@ def test_a_real_device_runs_until_ctrl_c_and_its_motors_go_off(name, scene, tmp_
         double.kill()
         double.wait()
         if demo and demo.poll() is None:
+            demo.terminate()
+
+
+def test_a_session_led_by_the_mouse_says_where_its_page_is_and_runs_until_ctrl_c(name, scene):
+    with socket.socket() as any_free:
+        any_free.bind(("127.0.0.1", 0))
+        port = any_free.getsockname()[1]
+    demo = subprocess.Popen(
+        [DEMO, "--scene", scene, "--device", "pointer", "--set", f"viewer.port={port}", "--no-record", "--record", name],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment(),
+    )
+    try:
+        assert demo.stdout.readline() == f"viewer: http://127.0.0.1:{port}/\n"
+        assert "drag presses" in demo.stdout.readline()
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=10) as page:
+            assert "text/html" in page.headers["content-type"]
+        time.sleep(2.0)
+        assert demo.poll() is None, "no end by itself"
+        demo.send_signal(signal.SIGINT)
+        output, errors = demo.communicate(timeout=30)
+        assert demo.returncode == 0, errors
+        assert output.splitlines()[-1] == "recording: none (--no-record)"
+        assert processes_with(scene) == []
+    finally:
+        if demo.poll() is None:
             demo.terminate()
 
 

@@ -48,7 +48,8 @@ impl Placement {
     }
 }
 
-#[cfg(all(test, feature = "pointer"))]
+#[cfg(feature = "pointer")]
+#[cfg(test)]
 mod tests {
     use super::*;
     use glam::DQuat;

@@ -79,6 +79,7 @@ impl HeldHandle {
     }
 
     /// One period under a constant wrench, of a hand that has let go of the place and only slows the handle down. RT safe.
+    #[cfg(feature = "pointer")]
     pub(crate) fn coast(&mut self, wrench: &Wrench) {
         let felt = self.felt(wrench);
         self.hand.coast(felt.force_n, &LIMITS.workspace);
