@@ -214,7 +214,10 @@ def test_a_session_led_by_the_mouse_says_where_its_page_is_and_runs_until_ctrl_c
         any_free.bind(("127.0.0.1", 0))
         port = any_free.getsockname()[1]
     demo = subprocess.Popen(
-        [DEMO, "--scene", scene, "--device", "pointer", "--set", f"viewer.port={port}", "--no-record", "--record", name],
+        [
+            *(REPOSITORY / "launch" / "demo", "--scene", scene, "--device", "pointer"),
+            *("--set", f"viewer.port={port}", "--no-record", "--record", name),
+        ],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
