@@ -14,7 +14,7 @@ pub(crate) struct Asset {
 }
 
 /// All of them.
-pub(crate) const ASSETS: [Asset; 5] = [
+pub(crate) const ASSETS: [Asset; 6] = [
     Asset {
         paths: &["/", "/index.html"],
         content_type: "text/html; charset=utf-8",
@@ -24,6 +24,11 @@ pub(crate) const ASSETS: [Asset; 5] = [
         paths: &["/viewer.js"],
         content_type: "text/javascript; charset=utf-8",
         bytes: include_bytes!("../../page/dist/viewer.js"),
+    },
+    Asset {
+        paths: &["/link.js"],
+        content_type: "text/javascript; charset=utf-8",
+        bytes: include_bytes!("../../page/dist/link.js"),
     },
     Asset {
         paths: &["/viewer.css"],
