@@ -17,8 +17,11 @@ async function visit(t, options) {
   const node = await new FakeNode(options).listen();
   const { page, errors, close } = await open(browser, { address: node.url });
   t.after(async () => {
-    await close();
-    await node.close();
+    try {
+      await close();
+    } finally {
+      await node.close();
+    }
   });
   return { node, page, errors };
 }
@@ -110,20 +113,23 @@ test("a node that hangs is said to be silent within about a second, and nothing 
   assert.equal(await page.locator(".numbers dd").first().textContent(), "–");
 });
 
-test("a node that dies and comes back at the same port: the page says so and reconnects by itself", async () => {
+test("a node that dies and comes back at the same port: the page says so and reconnects by itself", async (t) => {
   const node = await new FakeNode().listen();
   const { page, errors } = await open(browser, { address: node.url });
   await node.close();
+  let again = null;
+  t.after(async () => {
+    await page.context().close();
+    await again?.close();
+  });
   await until(page, () => ["waiting", "connecting"].includes(window.rhombus.connection.phase));
   assert.match(await page.locator("#connection").textContent(), /lost/);
   await keep(page, "lost");
-  const again = await new FakeNode({ vertices: 1000 }).listen(node.port);
+  again = await new FakeNode({ vertices: 1000 }).listen(node.port);
   await until(page, () => window.rhombus.connection.phase === "connected");
   await until(page, (vertices) => window.rhombus.mesh.vertices === vertices, again.xyz.length / 3);
   assert.equal((await read(page, "connection")).reconnects, 1);
   assert.match(await page.locator("#connection").textContent(), /Connected/);
   // A browser itself writes refused connections to the console; the page adds nothing.
   assert.deepEqual(errors.filter((text) => !/ERR_CONNECTION_REFUSED|WebSocket connection/.test(text)), []);
-  await page.context().close();
-  await again.close();
 });

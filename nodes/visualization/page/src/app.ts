@@ -16,6 +16,7 @@ import type { Look, Stage } from "./stage.ts";
 /** The parts of the page that show what the app knows. */
 export interface Views {
   hello(hello: Hello): void;
+  chains(): void;
   connection(state: ConnectionState): void;
   state(state: Pick<StateFrame, "devices">): void;
   status(status: Status): void;
@@ -134,6 +135,7 @@ export class App {
       case "chains":
         this.chains = message;
         this.stage.setLaw(message.chains.length > 0 ? new ContactLaw(message.chains, message.formulation) : null);
+        this.views.chains();
         break;
       case "parameters":
         this.parameters = message.parameters;

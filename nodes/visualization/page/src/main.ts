@@ -54,9 +54,9 @@ function start(): void {
       devices.setDevices(hello.devices);
       plots.setDevices(hello.devices);
       marks.setFrame(hello.body_frame);
-      const place = hello.namespace === "/" || hello.namespace === "" ? "" : ` in ${hello.namespace}`;
-      write(find("session"), `${hello.scene_frame}${place}`);
+      showScene(app);
     },
+    chains: () => showScene(app),
     connection: showConnection,
     state: (state) => devices.update(state.devices),
     status(status) {
@@ -67,7 +67,10 @@ function start(): void {
     parameters: (list) => parameters.update(list),
     result: (result) => parameters.onResult(result),
     lost: () => parameters.onLost(),
-    body: () => find("waiting").remove(),
+    body() {
+      find("waiting").hidden = true;
+      showScene(app);
+    },
     hand: () => handPanel?.show(),
     recorded(timeS) {
       plots.update(timeS);
@@ -141,6 +144,17 @@ function wireButtons(app: App, stage: Stage): void {
     remember("panel", open ? "open" : "closed");
     show(open);
   });
+}
+
+/** What is loaded: the frame everything stands in, the body and its law. */
+function showScene({ hello, body, chains }: App): void {
+  if (!hello) return;
+  const parts = [hello.scene_frame];
+  if (hello.namespace !== "/" && hello.namespace !== "") parts.push(hello.namespace);
+  if (body) parts.push(`${body.vertexCount.toLocaleString("en").replaceAll(",", "\u202f")} vertices`);
+  const count = chains?.chains.length ?? 0;
+  if (chains && count > 0) parts.push(`${count} ${count === 1 ? "chain" : "chains"}, ${chains.formulation} law`);
+  write(find("session"), parts.join(" · "));
 }
 
 function showConnection(state: ConnectionState): void {
