@@ -141,7 +141,7 @@ export class Colouring {
           unit: this.law && this.law.chains.length > 0 ? "N/mm" : "× law",
           from: low * unit,
           to: high * unit,
-          note: low === high ? "The same everywhere: no stiffness map" : "Contact law at rest, with the map's factor",
+          note: low === high ? "Of the law at rest; no stiffness map" : "Of the law at rest, times the map",
           explanation:
             low === high
               ? "The contact law is the same everywhere: this scene has no stiffness map."

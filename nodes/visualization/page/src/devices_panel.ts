@@ -83,8 +83,8 @@ function describe(status: DeviceStatus): string {
 function describeMode(state: DeviceState | undefined): string {
   if (!state?.contactHeard) return state?.poseHeard ? "no answer from the model" : "";
   if (state.clutched) return "clutched";
-  const saturated = state.saturated ? ", past a guard" : "";
-  return { none: "free", contact: "contact", grasp: "grasp" }[state.mode] + saturated;
+  if (state.saturated) return "past a guard";
+  return { none: "free", contact: "contact", grasp: "grasp" }[state.mode];
 }
 
 function makeCard(name: string): Card {

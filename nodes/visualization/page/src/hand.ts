@@ -23,6 +23,9 @@ const LEAST_PERIOD_MS = 8;
 const TOUCH_M = 0.0003;
 const GRASP_AFTER_MS = 500;
 
+/** A pointer that nobody uses is given back after this time, for other pages, ms. */
+const IDLE_MS = 5000;
+
 /** What the hand needs from the page. */
 export interface Surroundings {
   send(message: object): boolean;
@@ -198,7 +201,10 @@ export class Hand {
 
   private repeat(): void {
     const { motion } = this;
-    if (motion.kind === "away" || !this.target) return;
+    if (motion.kind === "away" || !this.target) {
+      if (this.hold === "ours" && performance.now() - this.sentMs > IDLE_MS) this.release();
+      return;
+    }
     if (motion.kind === "pull" && !motion.held) {
       const state = this.device === null ? null : this.around.device(this.device);
       const touches = state?.contactHeard === true && state.mode !== "none" && state.depthM > TOUCH_M;

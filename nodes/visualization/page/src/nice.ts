@@ -1,13 +1,13 @@
-// Numbers that people like to read: 1, 2 or 5 times a power of ten.
+// Numbers that people like to read.
 
-/** The smallest nice number that is not less than `value`, which is above 0. */
+/** The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not less than `value`, which is above 0. */
 export function niceAbove(value: number): number {
   const power = 10 ** Math.floor(Math.log10(value));
-  const factor = [1, 2, 5, 10].find((one) => one * power >= value * (1 - 1e-9)) ?? 10;
+  const factor = [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((one) => one * power >= value * (1 - 1e-9)) ?? 10;
   return factor * power;
 }
 
-/** The largest nice number that is not more than `value`, which is above 0. */
+/** The largest of 1, 2, 5 times a power of ten that is not more than `value`, which is above 0. */
 export function niceBelow(value: number): number {
   const power = 10 ** Math.floor(Math.log10(value));
   const factor = [5, 2, 1].find((one) => one * power <= value * (1 + 1e-9)) ?? 1;

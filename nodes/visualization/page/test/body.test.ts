@@ -146,7 +146,7 @@ function firstByEveryTriangle(mesh: MeshFrame, origin: Vec3, direction: Vec3): n
 }
 
 test("numbers that people like to read", () => {
-  assert.deepEqual([0.3, 1, 1.1, 7, 0.02].map(niceAbove), [0.5, 1, 2, 10, 0.02]);
+  assert.deepEqual([0.35, 1, 1.1, 7, 0.02].map(niceAbove), [0.4, 1, 1.5, 8, 0.02]);
   assert.deepEqual([0.3, 1, 1.9, 7, 49].map(niceBelow), [0.2, 1, 1, 5, 20]);
   assert.deepEqual([short(0.123456), short(-2), short(NaN), short(0), short(1e9)], ["0.123", "−2", "–", "0", "1.00e+9"]);
   assert.deepEqual([fixed(-0.0001, 2), fixed(-1.5, 2), fixed(null, 1)], ["0.00", "−1.50", "–"]);
