@@ -98,11 +98,11 @@ test("a publisher that is gone is said within a second, and so is its return", a
   const { node, page } = await visit(t);
   node.publishers = { ...node.publishers, contact_state: 0 };
   node.say(node.status());
-  await page.getByText(/Nobody publishes the contact/).waitFor({ timeout: 1000 });
+  await page.getByText(/Nothing comes on contact_state/).waitFor({ timeout: 1000 });
   await keep(page, "publisher-gone");
   node.publishers = { ...node.publishers, contact_state: 1 };
   node.say(node.status());
-  await page.getByText(/Nobody publishes the contact/).waitFor({ state: "detached", timeout: 1000 });
+  await page.getByText(/Nothing comes on contact_state/).waitFor({ state: "detached", timeout: 1000 });
 });
 
 test("a node that hangs is said to be silent within about a second, and nothing old looks like new", async (t) => {

@@ -177,6 +177,8 @@ export class App {
     this.notices.set("publishers", missing.length > 0 ? missing.join(" ") : null);
     const faults = status.devices.filter((device) => device.operating_state === "FAULT").map((device) => device.name || "the device");
     this.notices.set("fault", faults.length > 0 ? `FAULT: ${faults.join(", ")} gives no force until it is enabled again.` : null);
+    const unplaced = status.devices.filter((device) => device.unplaced_frame !== null).map((device) => device.unplaced_frame);
+    this.notices.set("frames", unplaced.length > 0 ? `Not drawn: nothing connects ${unplaced.join(", ")} to the body's frame.` : null);
     this.views.status(status);
   }
 

@@ -41,11 +41,11 @@ export class Growth {
 /** What is wrong with the publishers, one sentence each; empty: nothing. */
 export function missingPublishers(publishers: Readonly<Record<string, number>>): string[] {
   const sentences: Readonly<Record<string, string>> = {
-    body_mesh: "Nobody publishes the body (body_mesh): is the deformation node running?",
-    surface_displacement: "Nobody publishes the surface (surface_displacement): it no longer moves.",
-    contact_state: "Nobody publishes the contact (contact_state): depth and force are not known.",
+    body_mesh: "Nothing comes on body_mesh: is the deformation node running?",
+    surface_displacement: "Nothing comes on surface_displacement: the surface does not move.",
+    contact_state: "Nothing comes on contact_state: depth and contact are not known.",
   };
   return Object.entries(publishers)
     .filter(([, count]) => count === 0)
-    .map(([topic]) => sentences[topic] ?? `Nobody publishes ${topic}.`);
+    .map(([topic]) => sentences[topic] ?? `Nothing comes on ${topic}.`);
 }

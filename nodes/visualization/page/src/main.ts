@@ -66,7 +66,10 @@ function start(): void {
     },
     parameters: (list) => parameters.update(list),
     result: (result) => parameters.onResult(result),
-    lost: () => parameters.onLost(),
+    lost() {
+      parameters.onLost();
+      devices.setStatus([]);
+    },
     body() {
       find("waiting").hidden = true;
       showScene(app);

@@ -81,6 +81,8 @@ export interface DeviceStatus {
   readonly pointer: boolean;
   readonly pose_age_s: number | null;
   readonly alive: boolean;
+  /** A frame of the device that nothing connects to the body; null: none. */
+  readonly unplaced_frame: string | null;
 }
 
 export interface Status {
@@ -237,6 +239,7 @@ function device(json: Fields): DeviceStatus {
     pointer: json.pointer === true,
     pose_age_s: limit(json.pose_age_s),
     alive: json.alive !== false,
+    unplaced_frame: typeof json.unplaced_frame === "string" ? json.unplaced_frame : null,
   };
 }
 
