@@ -35,7 +35,7 @@ from test_visualization import (
     topology_version,
 )
 from tf2_msgs.msg import TFMessage
-from websocket import BINARY, MESH, STATE, SURFACE, TEXT, Page, request
+from websocket import BINARY, MESH, STATE, SURFACE, TEXT, Page, frame, request
 
 LATCHED = peer.latched(10)
 
@@ -357,13 +357,10 @@ def test_an_oversize_message_is_refused_with_the_limit(start):
 def test_a_flood_of_messages_is_limited(start):
     session = start()
     page = session.page()
-    for n in range(3000):
-        page.send(type="ping", t=n)
-        page.poll()
-        if page.closed:
-            break
+    page.socket.sendall(b"".join(frame(TEXT, b'{"type":"ping","t":1}') for _ in range(3000)))
     session.wait_for(lambda: page.closed, "the end of a flood")
-    assert "second" in page.said("refused")[0]["reason"]
+    assert page.closed[0] == 1008 and "second" in page.said("refused")[0]["reason"]
+    assert len(page.said("pong")) == 1000
 
 
 def test_a_stalled_page_is_dropped_for_alone(start):
@@ -375,23 +372,26 @@ def test_a_stalled_page_is_dropped_for_alone(start):
     session.pages.remove(stalled)
     numbers = iter(range(1, 1_000_000))
 
+    published = []
+
     def move():
         z_m = -1e-6 * next(numbers)
         session.publish("surface_displacement", displacement(range(len(vertices)), z_m, version))
+        published.append(time.monotonic())
 
     session.wait_for(lambda: len(reading.shown[SURFACE]) > 10, "surfaces", move)
-    before, sent, begun = len(reading.shown[SURFACE]), next(numbers), time.monotonic()
+    before = len(reading.shown[SURFACE])
+    published.clear()
     session.spin(8.0, move)
-    seconds = time.monotonic() - begun
-    published_hz = (next(numbers) - sent) / seconds
-    shown_hz = (len(reading.shown[SURFACE]) - before) / seconds
+    published_hz, shown_hz = len(published) / 8.0, (len(reading.shown[SURFACE]) - before) / 8.0
     assert shown_hz > 0.8 * min(published_hz, 60), (shown_hz, published_hz)
-    assert session.viewer_value("dropped_updates") > 50
     times = [when for when, _ in reading.shown[SURFACE][before:]]
-    assert max(numpy.diff(times)) < 0.5, "the page that reads never waits for the one that does not"
+    longest_s = max(numpy.diff(times)) - max(numpy.diff(published))
+    assert longest_s < 0.3, "the page that reads never waits for the one that does not"
     # It reads again: it is up to date with the next update, knows what it missed, and nobody kept more than a little for it.
     session.pages.append(stalled)
     session.wait_for(lambda: stalled.shown[STATE] and stalled.dropped() > 50, "the count of what was dropped", move)
+    assert session.viewer_value("dropped_updates") > 50
     newest = reading.sequences(SURFACE)[-1]
     session.wait_for(lambda: stalled.sequences(SURFACE)[-1] >= newest, "the newest surface", move)
     assert len(stalled.shown[SURFACE]) < 0.7 * len(reading.shown[SURFACE])

@@ -58,6 +58,19 @@ def parsed(answer):
     return int(first.split()[1]), headers, body
 
 
+def frame(opcode, payload, first=0x80):
+    """One frame from a client."""
+    length = len(payload)
+    if length < 126:
+        size = bytes([0x80 | length])
+    elif length < 65536:
+        size = bytes([0x80 | 126]) + struct.pack(">H", length)
+    else:
+        size = bytes([0x80 | 127]) + struct.pack(">Q", length)
+    # A mask of zeros is a mask.
+    return bytes([first | opcode]) + size + bytes(4) + payload
+
+
 class Page:
     """One page: what it has been told, by type; what it has been shown, by kind, each with its time of arrival."""
 
@@ -137,15 +150,7 @@ class Page:
         self.send_frame(TEXT, json.dumps(message).encode())
 
     def send_frame(self, opcode, payload, first=0x80):
-        length = len(payload)
-        if length < 126:
-            size = bytes([0x80 | length])
-        elif length < 65536:
-            size = bytes([0x80 | 126]) + struct.pack(">H", length)
-        else:
-            size = bytes([0x80 | 127]) + struct.pack(">Q", length)
-        # A mask of zeros is a mask.
-        self.socket.sendall(bytes([first | opcode]) + size + bytes(4) + payload)
+        self.socket.sendall(frame(opcode, payload, first))
 
     def said(self, kind):
         return self.texts.get(kind, [])

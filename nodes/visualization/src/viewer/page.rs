@@ -102,16 +102,16 @@ struct Seen {
     dropped: u32,
 }
 
-/// Whether this is new to the page; the updates between it and the last one were dropped.
-fn is_new(seen: &mut Option<u32>, dropped: &mut u32, numbered: Option<&Numbered>) -> bool {
-    let Some(numbered) = numbered else { return false };
-    match seen.replace(numbered.sequence) {
-        Some(before) if before == numbered.sequence => false,
-        Some(before) => {
-            *dropped = dropped.wrapping_add(numbered.sequence.wrapping_sub(before).wrapping_sub(1));
-            true
-        }
-        None => true,
+/// Whether this is new to the page, which then has it.
+fn is_new(seen: &mut Option<u32>, numbered: Option<&Numbered>) -> bool {
+    numbered.is_some_and(|numbered| seen.replace(numbered.sequence) != Some(numbered.sequence))
+}
+
+/// Updates between the one that the page has and this one. What was before it came it does not miss.
+fn missed(seen: Option<u32>, numbered: Option<&Numbered>) -> u32 {
+    match (seen, numbered) {
+        (Some(seen), Some(numbered)) => numbered.sequence.wrapping_sub(seen).saturating_sub(1),
+        _ => 0,
     }
 }
 
@@ -141,12 +141,15 @@ impl Writer {
                     Some(Told::Text(text)) => self.send(Message::Text(text)).await,
                     Some(Told::Close(code, reason)) => {
                         let close = CloseFrame { code, reason: reason.into() };
-                        // The last message, whether or not it arrives.
+                        // The last message, whether or not it arrives. The reader ends the page.
                         let _ = self.send(Message::Close(Some(close))).await;
+                        tokio::time::sleep(FAREWELL).await;
                         Err(Gone)
                     }
                     None => Err(Gone),
                 },
+                // Before the updates, of which a page that cannot keep up has always one more.
+                _ = pings.tick() => self.send(Message::Ping(Bytes::new())).await,
                 changed = self.link.shown.changed() => match changed {
                     Ok(()) => {
                         let shown = self.link.shown.borrow_and_update().clone();
@@ -154,7 +157,6 @@ impl Writer {
                     }
                     Err(_) => Err(Gone),
                 },
-                _ = pings.tick() => self.send(Message::Ping(Bytes::new())).await,
             };
         }
     }
@@ -170,31 +172,44 @@ impl Writer {
                 send(&mut self.sink, &self.link.counts, Message::Text(text.text.clone())).await?;
             }
         }
-        let dropped_before = self.seen.dropped;
-        // An old mesh is no update that a page misses.
-        if is_new(&mut self.seen.mesh, &mut 0, shown.mesh.as_ref())
+        self.count_dropped(&shown);
+        if is_new(&mut self.seen.mesh, shown.mesh.as_ref())
             && let Some(mesh) = shown.mesh
         {
             self.send(Message::Binary(mesh.bytes)).await?;
         }
-        if is_new(&mut self.seen.surface, &mut self.seen.dropped, shown.surface.as_ref())
+        if is_new(&mut self.seen.surface, shown.surface.as_ref())
             && let Some(surface) = shown.surface
         {
             self.send(Message::Binary(surface.bytes)).await?;
         }
-        if is_new(&mut self.seen.state, &mut self.seen.dropped, shown.state.as_ref())
+        if is_new(&mut self.seen.state, shown.state.as_ref())
             && let Some(state) = shown.state
         {
             let bytes = protocol::at_page(&state.bytes, self.seen.dropped);
             self.send(Message::Binary(bytes.into())).await?;
         }
-        let newly = self.seen.dropped.wrapping_sub(dropped_before);
-        self.link.counts.dropped.fetch_add(u64::from(newly), Ordering::Relaxed);
         Ok(())
+    }
+
+    /// Count the updates between what this page has and what is shown now. An old mesh is none: it misses nothing.
+    fn count_dropped(&mut self, shown: &Shown) {
+        let dropped =
+            missed(self.seen.surface, shown.surface.as_ref()) + missed(self.seen.state, shown.state.as_ref());
+        self.seen.dropped = self.seen.dropped.wrapping_add(dropped);
+        self.link.counts.dropped.fetch_add(u64::from(dropped), Ordering::Relaxed);
     }
 
     async fn send(&mut self, message: Message) -> Result<(), Gone> {
         send(&mut self.sink, &self.link.counts, message).await
+    }
+}
+
+impl Drop for Writer {
+    fn drop(&mut self) {
+        // What it was not sent any more, it did not get.
+        let last = self.link.shown.borrow().clone();
+        self.count_dropped(&last);
     }
 }
 
@@ -236,14 +251,14 @@ impl Reader {
                     // Where the next message begins can no longer be told.
                     let reason = format!("{error}; texts of at most {MAX_FRAME} bytes are accepted");
                     self.refuse(&reason).await;
-                    return self.close(close_code::SIZE, "this cannot be read").await;
+                    return self.close(stream, close_code::SIZE, "this cannot be read").await;
                 }
             };
             if let Err(reason) = outcome {
                 self.refuse(&reason).await;
             }
             if self.refused >= MAX_REFUSED {
-                return self.close(close_code::POLICY, "100 messages were refused").await;
+                return self.close(stream, close_code::POLICY, "100 messages were refused").await;
             }
         }
     }
@@ -283,10 +298,19 @@ impl Reader {
         self.tell(protocol::refused(reason)).await;
     }
 
-    async fn close(&self, code: u16, reason: &'static str) {
-        let _ = self.page.told.send(Told::Close(code, reason)).await;
-        // The writer ends the page once that is sent.
-        tokio::time::sleep(FAREWELL).await;
+    async fn close(&self, mut stream: SplitStream<WebSocket>, code: u16, reason: &'static str) {
+        // What is not read would take the farewell back: a connection closed with bytes waiting is reset.
+        let end = async {
+            let _ = self.page.told.send(Told::Close(code, reason)).await;
+            loop {
+                match stream.next().await {
+                    Some(Ok(Message::Close(_))) => break,
+                    Some(Ok(_)) => {}
+                    Some(Err(_)) | None => std::future::pending::<()>().await,
+                }
+            }
+        };
+        let _ = timeout(FAREWELL, end).await;
     }
 }
 
@@ -300,12 +324,11 @@ mod tests {
 
     #[test]
     fn updates_that_a_page_was_too_slow_for_are_counted() {
-        let (mut seen, mut dropped) = (None, 0);
-        let mut takes = |n: u32| is_new(&mut seen, &mut dropped, numbered(n).as_ref());
-        assert!(takes(40), "what was before it came is not missed");
-        assert!(!takes(40));
-        assert!(takes(41) && takes(45));
-        assert_eq!(dropped, 3);
-        assert!(!is_new(&mut seen, &mut dropped, None));
+        let mut seen = None;
+        assert_eq!(missed(seen, numbered(40).as_ref()), 0, "what was before it came is not missed");
+        assert!(is_new(&mut seen, numbered(40).as_ref()));
+        assert!(!is_new(&mut seen, numbered(40).as_ref()));
+        assert_eq!([40, 41, 45].map(|n| missed(seen, numbered(n).as_ref())), [0, 0, 4]);
+        assert!(is_new(&mut seen, numbered(45).as_ref()) && !is_new(&mut seen, None));
     }
 }

@@ -55,9 +55,17 @@ struct Change {
     left: Vec<String>,
     /// Nodes that have it, each with the value it had before.
     done: Vec<(String, Value)>,
-    under_way: (String, Pending<()>),
+    under_way: UnderWay,
     /// Why it failed; then `done` is being undone.
     failed: Option<String>,
+}
+
+/// A node that has been asked.
+struct UnderWay {
+    node: String,
+    /// The value it had. Its own news of the change may come before its answer.
+    before: Option<Value>,
+    answer: Pending<()>,
 }
 
 impl NodeParameters {
@@ -185,18 +193,18 @@ impl NodeParameters {
         Ok((value, nodes))
     }
 
-    fn next(&self, left: &mut Vec<String>, name: &str, value: &Value) -> Option<(String, Pending<()>)> {
+    fn next(&self, left: &mut Vec<String>, name: &str, value: &Value) -> Option<UnderWay> {
         let node = left.pop()?;
-        let pending = self.nodes.get(&node)?.client.set(name, value);
-        Some((node, pending))
+        let answer = self.nodes.get(&node)?.client.set(name, value);
+        Some(UnderWay { before: self.value(&node, name).cloned(), node, answer })
     }
 
     fn advance_change(&mut self, mut change: Change) -> Option<Change> {
-        let Some(answer) = change.under_way.1.poll() else { return Some(change) };
-        let node = std::mem::take(&mut change.under_way.0);
+        let Some(answer) = change.under_way.answer.poll() else { return Some(change) };
+        let (node, before) = (change.under_way.node.clone(), change.under_way.before.take());
         match (answer, change.failed.is_some()) {
             (Ok(()), false) => {
-                let before = self.take_over(&node, &change.asked.name, &change.value);
+                self.take_over(&node, &change.asked.name, &change.value);
                 change.done.extend(before.map(|before| (node, before)));
             }
             (Ok(()), true) => {}
@@ -204,7 +212,6 @@ impl NodeParameters {
                 change.failed = Some(in_words(&node, &error));
                 // One that hangs may accept it yet; what takes it back is then behind it in the same queue.
                 if matches!(error, RemoteError::Silent { .. }) {
-                    let before = self.value(&node, &change.asked.name).cloned();
                     change.done.extend(before.map(|before| (node, before)));
                 }
             }
@@ -236,12 +243,13 @@ impl NodeParameters {
         parameters.iter().find(|parameter| parameter.name == name).map(|parameter| &parameter.value)
     }
 
-    /// Note the new value; the one before.
-    fn take_over(&mut self, node: &str, name: &str, value: &Value) -> Option<Value> {
-        let parameters = &mut self.nodes.get_mut(node)?.parameters;
-        let known = parameters.iter_mut().find(|parameter| parameter.name == name)?;
-        self.is_changed = true;
-        Some(std::mem::replace(&mut known.value, value.clone()))
+    /// Note the new value.
+    fn take_over(&mut self, node: &str, name: &str, value: &Value) {
+        let Some(remote) = self.nodes.get_mut(node) else { return };
+        for known in remote.parameters.iter_mut().filter(|parameter| parameter.name == name) {
+            known.value = value.clone();
+            self.is_changed = true;
+        }
     }
 }
 
