@@ -65,6 +65,12 @@ export async function keep(page, name) {
   return png;
 }
 
+/** Keeps what the page knows, for whoever compares it with the topics. */
+export function note(name, facts) {
+  mkdirSync(artefacts, { recursive: true });
+  writeFileSync(join(artefacts, `${name}.json`), JSON.stringify(facts));
+}
+
 /** Width, height and RGBA bytes of a PNG, read by the browser itself. */
 export async function pixels(browser, png) {
   const page = await browser.newPage();

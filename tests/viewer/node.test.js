@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { keep, launch, open, placeOnBody, read, until } from "./browser.js";
+import { keep, launch, note, open, placeOnBody, read, until } from "./browser.js";
 
 let browser;
 before(async () => {
@@ -62,6 +62,7 @@ test("a press moves vertices near the cursor by what the model says, and shows i
   const state = (await read(page, "devices"))[device];
   const moved = await read(page, "moved");
   await keep(page, "pressed");
+  note("pressed", { moved, state });
   // The vertex that moved most is at the contact, and moved by at most the depth.
   const largest = moved.reduce((most, one) => (norm(one.displacement) > norm(most.displacement) ? one : most));
   assert.ok(norm(subtract(largest.rest, hit.point)) < 0.015, "the dent is under the cursor");

@@ -1,0 +1,128 @@
+"""The page in a real browser, on the real nodes: a pointer device, the model, the viewer.
+
+The browser's tests are JavaScript (`*.test.js`). Here the session around them is started, and what the page showed is
+compared with what the model said on its topics.
+"""
+
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy
+import pytest
+import rclpy
+import yaml
+
+HERE = Path(__file__).resolve().parent
+REPOSITORY = HERE.parents[1]
+sys.path.insert(0, str(REPOSITORY / "tests" / "graph"))
+import peer  # noqa: E402
+from geometry_msgs.msg import WrenchStamped  # noqa: E402
+from rhombus_haptics_msgs.msg import ContactState, SurfaceDisplacement  # noqa: E402
+
+ARTEFACTS = HERE / "artefacts"
+CHROMIUM = os.environ.get("RHOMBUS_CHROMIUM") or shutil.which("chromium")
+LONGEST_S = 900
+
+
+@pytest.fixture(scope="module", autouse=True)
+def ros():
+    peer.isolate()
+    rclpy.init(args=[])
+    yield
+    rclpy.shutdown()
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    """The default scene with a pointer device, and its viewer's address."""
+    folder = tmp_path_factory.mktemp("session")
+    values = yaml.safe_load((REPOSITORY / "config" / "liver.yaml").read_text())["/**"]["ros__parameters"]
+    flat = dict(flattened(values)) | {"device.backend": "pointer", "viewer.port": 0}
+    programs = [peer.Program(folder, name, flat) for name in ("deformation", "visualization", "haptic_device")]
+    for program in programs:
+        program.wait_ready()
+    address = re.search(r"viewer: (http://\S+)", programs[1].log())[1]
+    yield address, programs[0].file
+    for program in reversed(programs):
+        program.interrupt()
+
+
+def flattened(values, prefix=""):
+    for key, value in values.items():
+        if isinstance(value, dict):
+            yield from flattened(value, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}", value
+
+
+def browse(file, address=""):
+    """Runs one file of the browser's tests; what it said."""
+    assert CHROMIUM, "no chromium on this machine: install it, or set RHOMBUS_CHROMIUM"
+    environment = {**os.environ, "RHOMBUS_VIEWER_URL": address, "RHOMBUS_CHROMIUM": CHROMIUM}
+    command = ["node", "--test", "--test-concurrency=1", "--test-timeout=180000", file]
+    return subprocess.Popen(
+        command, cwd=HERE, env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    )
+
+
+def assert_passed(process, said):
+    assert process.returncode == 0, said
+    assert int(re.search(r"# pass (\d+)", said)[1]) > 0 and "# skipped 0" in said, said
+
+
+def test_the_page_draws_the_organ_and_is_fit_for_people(session):
+    process = browse("page.test.js", session[0])
+    assert_passed(process, process.communicate(timeout=LONGEST_S)[0])
+
+
+def test_the_page_stands_a_node_that_sends_nonsense_hangs_and_dies():
+    process = browse("hostile.test.js")
+    assert_passed(process, process.communicate(timeout=LONGEST_S)[0])
+
+
+def test_the_mouse_presses_the_organ_and_the_page_shows_what_the_model_says(session, tmp_path):
+    address, parameters = session
+    remote = peer.Peer()
+    surfaces = remote.heard(SurfaceDisplacement, "surface_displacement", peer.reliable(1000))
+    contacts = remote.heard(ContactState, "contact_state", peer.reliable(5000))
+    forces = remote.heard(WrenchStamped, "servo_cf", peer.reliable(5000))
+    (ARTEFACTS / "pressed.json").unlink(missing_ok=True)
+    process = browse("node.test.js", address)
+    log = tmp_path / "log"
+    # The topics are heard while the browser is at work; what it says must not fill a pipe meanwhile.
+    with log.open("w") as file, process.stdout as said:
+        os.set_blocking(said.fileno(), False)
+        while process.poll() is None:
+            remote.spin(0.1)
+            file.write(said.read() or "")
+        file.write(said.read() or "")
+    assert_passed(process, log.read_text())
+    remote.spin(1.0)
+    shown = json.loads((ARTEFACTS / "pressed.json").read_text())
+    remote.close()
+
+    vertices = [one["vertex"] for one in shown["moved"]]
+    displacements = numpy.array([one["displacement"] for one in shown["moved"]], dtype=numpy.float32)
+    order = numpy.argsort(vertices)
+    same = [
+        surface
+        for surface in surfaces
+        if list(surface.vertex) == sorted(vertices)
+        and numpy.array_equal(numpy.reshape(surface.displacement, (-1, 3)), displacements[order])
+    ]
+    assert same, "the page showed a surface that the model never published"
+    state = shown["state"]
+    close = lambda a, b: abs(a - b) <= 1e-6 * max(abs(a), abs(b), 1e-3)
+    assert any(
+        all(close(shown_part, part) for shown_part, part in zip(state["force"], peer.force_of(force))) for force in forces
+    ), "the page showed a force that the model never commanded"
+    contact = min(contacts, key=lambda contact: abs(contact.depth - state["depthM"]))
+    assert close(contact.depth, state["depthM"])
+    expected_n = peer.library_force_n(parameters, state["depthM"])
+    assert abs(math.hypot(*state["force"]) - expected_n) <= 0.01 * expected_n
