@@ -104,7 +104,7 @@ pub const STATE_COMMAND: Topic<StringStamped> = Topic::new("state_command", reli
 pub const OPERATING_STATE: Topic<OperatingState> = Topic::new("operating_state", latched(10));
 /// True takes the force away and latches a fault: anyone to device.
 pub const EMERGENCY_STOP: Topic<Bool> = Topic::new("emergency_stop", reliable(10));
-/// Where a pointer leads the hand: visualization, or anyone, to the device, where its backend is pointer.
+/// Where the hand of a pointer device is asked to go: visualization or anyone to a pointer device.
 pub const POINTER_TARGET: Topic<PoseStamped> = Topic::new(topic::POINTER_TARGET, reliable(10));
 /// Changes of the device's lifecycle state: device.
 pub const TRANSITION_EVENT: Topic<TransitionEvent> = Topic::new("~/transition_event", reliable(10));

@@ -8,7 +8,7 @@ pub const GRIPPER_MEASURED_JS: &str = "gripper/measured_js";
 pub const GRASP: &str = "grasp";
 /// Let the hand move without the probe.
 pub const CLUTCH: &str = "clutch";
-/// Where a pointer leads the hand of the pointer backend.
+/// Where the hand of a pointer device is asked to go.
 pub const POINTER_TARGET: &str = "pointer_target";
 /// Force on the hand.
 pub const SERVO_CF: &str = "servo_cf";
