@@ -64,10 +64,14 @@ def read_pages(port, pages, begin, seconds, results):
             page.poll()
         time.sleep(0.002)
     elapsed = time.monotonic() - begun
+    # The hand does not always touch: while it does, one surface follows the other.
+    times = [when for when, _ in opened[0].shown[SURFACE]]
+    moving_s = [later - when for when, later in zip(times, times[1:]) if later - when < 0.1]
     touched = [len(page.surface(index)[2]) for page in opened[:1] for index in range(len(page.shown[SURFACE]))]
     results.put(
         {
             "surfaces_hz": min(len(page.shown[SURFACE]) for page in opened) / elapsed,
+            "touching_hz": len(moving_s) / sum(moving_s) if moving_s else 0,
             "states_hz": min(len(page.shown[STATE]) for page in opened) / elapsed,
             "kb_per_s": max(page.bytes for page in opened) / elapsed / 1000,
             "touched": statistics.mean(touched) if touched else 0,
@@ -133,7 +137,7 @@ def measure(vertices, pages, seconds):
                 process.wait()
 
 
-COLUMNS = ["percent", "rss_mb", "surfaces_hz", "states_hz", "touched", "kb_per_s", "dropped", "poses"]
+COLUMNS = ["percent", "rss_mb", "surfaces_hz", "touching_hz", "states_hz", "touched", "kb_per_s", "dropped", "poses"]
 
 
 def main():
@@ -150,7 +154,7 @@ def main():
     if options.csv is None or not options.csv.exists():
         lines += [
             f"# {machine()}",
-            "# percent: processor time of the node in percent of one core; hz, kb_per_s: of the page that got least, most; touched: mean of a surface",
+            "# percent: processor time of the node in percent of one core; hz, kb_per_s: of the page that got least, most; touching_hz: surfaces while they change; touched: mean of a surface",
             ",".join(["vertices", "pages", "run", *COLUMNS]),
         ]
     for vertices in options.vertices:
