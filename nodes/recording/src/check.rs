@@ -11,7 +11,7 @@ mod stamps;
 mod topic;
 mod values;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -144,7 +144,7 @@ impl Report {
             ));
         }
         let metadata = metadata_of(&self.path);
-        let announced = Announced::by(metadata.as_ref());
+        let announced = Announced::by(metadata.as_ref(), recording);
         let mut topics: Vec<_> = recording
             .topics()
             .iter()
@@ -184,16 +184,27 @@ impl Report {
     }
 
     fn remark_on_topics(&mut self) {
+        let mut different = Vec::new();
         for pair in self.topics.windows(2) {
             if let [first, second] = pair
                 && first.name == second.name
             {
-                self.remarks.push(format!(
-                    "{}: messages of two types, {} and {}; a replay needs one",
-                    first.name, first.type_name, second.type_name
-                ));
+                let (name, type_name) = (&first.name, &first.type_name);
+                if type_name != &second.type_name {
+                    self.remarks.push(format!(
+                        "{name}: messages of two types, {type_name} and {}; a replay needs one",
+                        second.type_name
+                    ));
+                    continue;
+                }
+                let (one, other) = (&first.serialization_format, &second.serialization_format);
+                different.push(match one == other {
+                    true => format!("{name}: recorded with more than one definition of {type_name}; a replay needs one"),
+                    false => format!("{name}: messages encoded as {one:?} and as {other:?}; a replay needs one"),
+                });
             }
         }
+        different.into_iter().for_each(|problem| self.problem(problem));
         if self.message_count == 0 {
             self.remarks.push("there are no messages in it".to_owned());
         } else if !self.topics.iter().any(|topic| topic.is_pose() && topic.messages > 0) {
@@ -241,12 +252,19 @@ pub(crate) fn metadata_of(path: &Path) -> Option<Metadata> {
 pub(crate) struct Announced<'a>(BTreeMap<(&'a str, &'a str), u64>);
 
 impl<'a> Announced<'a> {
-    pub(crate) fn by(metadata: Option<&'a Metadata>) -> Self {
+    pub(crate) fn by(metadata: Option<&'a Metadata>, recording: &'a Recording) -> Self {
         let mut counts = BTreeMap::new();
         for entry in metadata.iter().flat_map(|metadata| &metadata.topics_with_message_count) {
             let TopicMetadata { name, type_name, .. } = &entry.topic_metadata;
             let count: &mut u64 = counts.entry((name.as_str(), type_name.as_str())).or_default();
             *count = count.saturating_add(entry.message_count);
+        }
+        // Of a topic with two definitions it does not say how many are of which.
+        let mut seen = BTreeSet::new();
+        for Topic { name, type_name, .. } in recording.topics().iter().map(|found| &found.topic) {
+            if !seen.insert((name.as_str(), type_name.as_str())) {
+                counts.remove(&(name.as_str(), type_name.as_str()));
+            }
         }
         Self(counts)
     }

@@ -32,6 +32,7 @@ mod sqlite;
 mod storage;
 mod summary;
 mod topic;
+mod variants;
 mod writer;
 
 pub use compare::{

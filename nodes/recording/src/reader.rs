@@ -10,6 +10,7 @@ use crate::metadata::Metadata;
 use crate::order::{Found, Located, Merge, Selection};
 use crate::storage::RecordedFile;
 use crate::topic::RecordedTopic;
+use crate::variants::Variants;
 
 /// An opened recording. Opening reads heads and summaries; messages are read when they are asked for.
 #[derive(Debug)]
@@ -75,9 +76,10 @@ impl Recording {
             damage: Vec::new(),
             disagreements: directory.disagreements,
         };
+        let mut variants = Variants::default();
         for file_path in directory.files {
             match RecordedFile::open(&file_path) {
-                Ok((file, index)) => recording.add(file, index),
+                Ok((file, index)) => recording.add(&mut variants, file, index),
                 Err(error) => recording.damage.push(error),
             }
         }
@@ -96,7 +98,8 @@ impl Recording {
         &self.path
     }
 
-    /// The topics, in the order in which they came into the recording.
+    /// The topics, in the order in which they came into the recording. One that was recorded with several types,
+    /// definitions or encodings is there several times: what is true of one is not true of the others.
     pub fn topics(&self) -> &[RecordedTopic] {
         &self.topics
     }
@@ -162,12 +165,10 @@ impl Recording {
         self.blocks.get(block).is_some_and(|located| located.block.end_ns < time_ns)
     }
 
-    fn add(&mut self, file: RecordedFile, index: FileIndex) {
-        let names = self.topics.iter().enumerate();
-        let mut known = names.map(|(number, found)| (key(found), number)).collect();
+    fn add(&mut self, variants: &mut Variants, file: RecordedFile, index: FileIndex) {
         let mut topic_of_channel = BTreeMap::new();
         for (channel, topic) in index.topics {
-            topic_of_channel.insert(channel, self.add_topic(&mut known, topic));
+            topic_of_channel.insert(channel, variants.add(&mut self.topics, topic));
         }
         let number = self.files.len();
         self.blocks.extend(index.blocks.into_iter().map(|block| Located { file: number, block }));
@@ -176,21 +177,14 @@ impl Recording {
         self.files.push(file);
     }
 
-    /// The place of a topic: channels of the same name and type, in any of the files, are one topic.
-    fn add_topic(&mut self, known: &mut BTreeMap<(String, String), usize>, added: RecordedTopic) -> usize {
-        let place = *known.entry(key(&added)).or_insert(self.topics.len());
-        match self.topics.get_mut(place) {
-            Some(topic) => topic.message_count = topic.message_count.saturating_add(added.message_count),
-            None => self.topics.push(added),
-        }
-        place
-    }
-
     /// Some writers give hash and QoS in `metadata.yaml` alone.
     fn complete_from(&mut self, metadata: &Metadata) {
+        let mut by_topic: BTreeMap<_, Vec<_>> = BTreeMap::new();
+        for entry in metadata.topics_with_message_count.iter().map(|entry| &entry.topic_metadata) {
+            by_topic.entry((&entry.name, &entry.type_name)).or_default().push(entry);
+        }
         for RecordedTopic { topic, .. } in &mut self.topics {
-            let same = metadata.topics_with_message_count.iter().map(|entry| &entry.topic_metadata);
-            for entry in same.filter(|entry| entry.name == topic.name && entry.type_name == topic.type_name) {
+            for entry in by_topic.get(&(&topic.name, &topic.type_name)).into_iter().flatten() {
                 if topic.definition.type_hash.is_empty() {
                     topic.definition.type_hash.clone_from(&entry.type_description_hash);
                 }
@@ -200,11 +194,6 @@ impl Recording {
             }
         }
     }
-}
-
-/// What makes a topic another one.
-fn key(found: &RecordedTopic) -> (String, String) {
-    (found.topic.name.clone(), found.topic.type_name.clone())
 }
 
 impl<'a> MessageRef<'a> {

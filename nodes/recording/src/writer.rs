@@ -137,12 +137,18 @@ impl Writer {
         &self.directory
     }
 
-    /// Adds a topic. Topics can be added at any time. Two may have the same name with different types.
+    /// Adds a topic. Topics can be added at any time. Two may have the same name with different types, definitions
+    /// or encodings.
     ///
     /// # Errors
     /// When the topic is there already, or the file cannot be written.
     pub fn add_topic(&mut self, topic: Topic) -> Result<TopicId, Error> {
-        let is_same = |known: &Topic| known.name == topic.name && known.type_name == topic.type_name;
+        let is_same = |known: &Topic| {
+            known.name == topic.name
+                && known.type_name == topic.type_name
+                && known.serialization_format == topic.serialization_format
+                && known.definition == topic.definition
+        };
         if self.topics.iter().any(|known| is_same(&known.topic)) {
             return Err(Error::TopicTwice { topic: topic.name });
         }

@@ -2,6 +2,7 @@
 
 use recording::cdr::{Message, encode};
 use recording::messages::{PoseStamped, WrenchStamped};
+use recording::{Topic, Writer};
 
 use super::Case;
 use super::Expected::{Damaged, Whole};
@@ -102,6 +103,8 @@ fn encodings() -> Vec<Case> {
 }
 
 fn types() -> Vec<Case> {
+    let mut json = topic("/measured_cp", PoseStamped::TYPE_NAME, POSE_TEXT);
+    json.serialization_format = "json".to_owned();
     let other_fields =
         POSE_TEXT.replace("geometry_msgs/Pose pose\n", "geometry_msgs/Pose pose\nfloat32 quality\n");
     vec![
@@ -122,6 +125,23 @@ fn types() -> Vec<Case> {
             one_topic(topic("/measured_cp", PoseStamped::TYPE_NAME, &other_fields), COUNT, |n| {
                 encode(&pose(n))
             }),
+        ),
+        Case::file(
+            "two_definitions.mcap",
+            Damaged,
+            &["/measured_cp", "more than one definition", "quality"],
+            COUNT,
+            two_topics(
+                topic("/measured_cp", PoseStamped::TYPE_NAME, POSE_TEXT),
+                topic("/measured_cp", PoseStamped::TYPE_NAME, &other_fields),
+            ),
+        ),
+        Case::file(
+            "two_encodings.mcap",
+            Damaged,
+            &["/measured_cp", "\"cdr\"", "\"json\""],
+            COUNT,
+            two_topics(topic("/measured_cp", PoseStamped::TYPE_NAME, POSE_TEXT), json),
         ),
         Case::file(
             "no_pose.mcap",
@@ -145,6 +165,20 @@ fn types() -> Vec<Case> {
             one_topic(topic("/measured_cp", PoseStamped::TYPE_NAME, ""), COUNT, |n| encode(&pose(n))),
         ),
     ]
+}
+
+/// Poses, the first half on one topic and the others on another.
+fn two_topics(first: Topic, second: Topic) -> Vec<u8> {
+    let (_, bytes) = whole::made(|path| {
+        let mut writer = Writer::create(path, "jazzy").unwrap();
+        let ids = [first, second].map(|topic| writer.add_topic(topic).unwrap());
+        for number in 0..COUNT {
+            let id = ids[usize::from(number >= COUNT / 2)];
+            writer.write(id, whole::log_time_ns(number), &encode(&pose(number))).unwrap();
+        }
+        writer.close().unwrap();
+    });
+    bytes
 }
 
 /// A pose as a big-endian machine writes it.

@@ -29,6 +29,17 @@ pub fn same_definition(type_name: &str, recorded_text: &str, encoding: &str) -> 
     }
 }
 
+/// The types and fields in a text, in an order that does not depend on it: what counts of a definition, whatever its type.
+pub(crate) fn fields_of(type_name: &str, text: &str, mut take: impl FnMut(&str)) {
+    for (name, fields) in sections(type_name, text) {
+        take(&name);
+        for (type_name, name) in fields {
+            take(type_name);
+            take(name);
+        }
+    }
+}
+
 /// A field as a `.msg` text has it: type and name.
 type Field<'a> = (&'a str, &'a str);
 

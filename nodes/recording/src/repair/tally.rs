@@ -28,7 +28,7 @@ struct Counts {
 
 impl<'a> Tally<'a> {
     pub(super) fn new(recording: &'a Recording, metadata: Option<&Metadata>) -> Self {
-        let counted = Announced::by(metadata);
+        let counted = Announced::by(metadata, recording);
         let counts = recording.topics().iter().map(|found| {
             let announced = counted.of(&found.topic);
             Counts { recorded: found.message_count.max(announced), saved: 0, checksum: 0 }
@@ -86,7 +86,11 @@ impl<'a> Tally<'a> {
             let name = &found.topic.name;
             let of_read = read.recording.topics().iter().zip(&read.topics);
             let again = of_read.filter(|(other, _)| {
-                other.topic.name == *name && other.topic.type_name == found.topic.type_name
+                let (other, topic) = (&other.topic, &found.topic);
+                other.name == *name
+                    && other.type_name == topic.type_name
+                    && other.serialization_format == topic.serialization_format
+                    && other.definition == topic.definition
             });
             let again = again.map(|(_, counts)| *counts).next().unwrap_or(Counts::NONE);
             if again.saved != counts.saved {
