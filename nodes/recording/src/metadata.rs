@@ -1,6 +1,6 @@
 //! `metadata.yaml` of a rosbag2 directory: versions 1 to 9 are read, 9 and 5 are written.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 
@@ -159,11 +159,16 @@ impl Metadata {
     /// Reads `metadata.yaml` of `directory`; `None` when there is none.
     pub(crate) fn load(directory: &Path) -> Result<Option<Self>, Error> {
         let path = directory.join(FILE_NAME);
-        let file = match std::fs::File::open(&path) {
-            Ok(file) => file,
+        match std::fs::metadata(&path) {
+            // Opening a pipe waits for whoever writes into it, and a device never ends.
+            Ok(metadata) if !metadata.is_file() => {
+                return Err(Error::Metadata { path, reason: "it is no regular file".to_owned() });
+            }
+            Ok(_) => {}
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Error::io(&path, "open")(error)),
-        };
+        }
+        let file = std::fs::File::open(&path).map_err(Error::io(&path, "open"))?;
         let mut bytes = Vec::new();
         file.take(LARGEST_BYTES + 1).read_to_end(&mut bytes).map_err(Error::io(&path, "read"))?;
         if bytes.len() as u64 > LARGEST_BYTES {
@@ -188,32 +193,32 @@ impl Metadata {
     /// What this says other than the files of `recording`, a sentence each.
     pub(crate) fn disagreements(&self, recording: &Recording) -> Vec<String> {
         let mut sentences = Vec::new();
-        let mut known = BTreeSet::new();
-        for TopicWithCount { topic_metadata, message_count } in &self.topics_with_message_count {
-            let TopicMetadata { name, type_name, .. } = topic_metadata;
-            known.insert((name, type_name));
-            let found = recording
+        // A topic recorded with two definitions is there twice.
+        let announced = counted(self.topics_with_message_count.iter().map(|entry| {
+            let TopicMetadata { name, type_name, .. } = &entry.topic_metadata;
+            (name, type_name, entry.message_count)
+        }));
+        let found = counted(
+            recording
                 .topics()
                 .iter()
-                .find(|found| found.topic.name == *name && found.topic.type_name == *type_name);
-            match found {
-                Some(found) if found.message_count == *message_count => {}
-                Some(found) => sentences.push(format!(
-                    "metadata.yaml counts {message_count} messages of {name}, and there are {}",
-                    found.message_count
-                )),
+                .map(|found| (&found.topic.name, &found.topic.type_name, found.message_count)),
+        );
+        for ((name, type_name), count) in &announced {
+            match found.get(&(name, type_name)) {
+                Some(found) if found == count => {}
+                Some(found) => {
+                    sentences.push(format!("metadata.yaml counts {count} messages of {name}, and there are {found}"));
+                }
                 None => sentences.push(format!(
-                    "metadata.yaml has the topic {name} of type {type_name} with {message_count} messages, which is in no file"
+                    "metadata.yaml has the topic {name} of type {type_name} with {count} messages, which is in no file"
                 )),
             }
         }
-        for found in recording.topics() {
-            if !known.contains(&(&found.topic.name, &found.topic.type_name)) {
-                let (name, type_name) = (&found.topic.name, &found.topic.type_name);
-                sentences.push(format!("metadata.yaml does not have the topic {name} of type {type_name}"));
-            }
+        for (name, type_name) in found.keys().filter(|topic| !announced.contains_key(topic)) {
+            sentences.push(format!("metadata.yaml does not have the topic {name} of type {type_name}"));
         }
-        let found: u64 = recording.topics().iter().map(|topic| topic.message_count).sum();
+        let found = found.values().fold(0, |sum: u64, count| sum.saturating_add(*count));
         if found != self.message_count {
             let announced = self.message_count;
             sentences
@@ -231,6 +236,18 @@ impl Metadata {
         }
         sentences
     }
+}
+
+/// Messages by the name and type of their topic.
+fn counted<'a>(
+    topics: impl Iterator<Item = (&'a String, &'a String, u64)>,
+) -> BTreeMap<(&'a str, &'a str), u64> {
+    let mut counts = BTreeMap::new();
+    for (name, type_name, count) in topics {
+        let sum: &mut u64 = counts.entry((name.as_str(), type_name.as_str())).or_default();
+        *sum = sum.saturating_add(count);
+    }
+    counts
 }
 
 fn invalid(path: &Path) -> impl FnOnce(serde_yaml::Error) -> Error {
