@@ -1,11 +1,12 @@
 //! Messages in the order of their log times, with few blocks in memory.
 //!
 //! Blocks are loaded when the next message could come from them. Blocks that do not overlap in time, as a recorder
-//! writes them, are in memory one or two at a time, however long the recording is. Where so many overlap that they
-//! would fill the memory, those that are needed last are dropped and loaded again. Equal times keep the stored order.
+//! writes them, are in memory one or two at a time, however long the recording is. Of each, only the wanted messages are
+//! kept. Where so many overlap that they would still fill the memory, the largest are dropped and loaded again part by
+//! part: that takes time, and loses nothing. Equal times keep the stored order.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap, VecDeque};
 
 use crate::block::{Block, Entry, Loaded, MAX_BLOCK_BYTES};
 use crate::error::Error;
@@ -13,9 +14,6 @@ use crate::storage::RecordedFile;
 
 /// Blocks in memory besides the one being read, bytes.
 const HELD_BYTES: usize = 32 << 20;
-/// A block is loaded this often and no more: a file of thousands of large blocks that all span the same time would
-/// otherwise be read for days.
-const MOST_LOADS: u32 = 100;
 
 /// A block and the file it is in (index into the recording's files).
 #[derive(Debug, Clone)]
@@ -34,8 +32,9 @@ pub(crate) struct Selection {
     pub(crate) to_ns: u64,
 }
 
-/// Where a message is: the number of its block in the recording, and where its bytes begin in the block.
-pub(crate) type Spot = (usize, u32);
+/// What tells a message from others: the number of its block in the recording, its topic and its log time. Of several the
+/// first in stored order comes first, whatever else is wanted.
+pub(crate) type Spot = (usize, usize, u64);
 
 /// A message to come.
 pub(crate) struct Next {
@@ -61,11 +60,11 @@ pub(crate) struct Merge<'a> {
     /// All blocks that have a message to come, the one being read apart.
     queue: BinaryHeap<Reverse<Due>>,
     /// Loaded blocks of the queue.
-    held: BTreeMap<usize, Loaded>,
+    held: BTreeMap<usize, Part>,
     held_bytes: usize,
-    /// How often a block was loaded, of those that were dropped once.
-    loads: BTreeMap<usize, u32>,
-    reading: Option<(Due, Loaded)>,
+    /// Blocks that were loaded and have messages to come.
+    begun: BTreeSet<usize>,
+    reading: Option<(Due, Part)>,
     damage: VecDeque<(usize, Error)>,
 }
 
@@ -74,8 +73,18 @@ pub(crate) struct Merge<'a> {
 struct Due {
     time_ns: u64,
     block: usize,
-    /// The next entry.
+    /// The next one of its wanted messages.
     cursor: usize,
+}
+
+/// Wanted messages of a block in memory.
+#[derive(Default)]
+struct Part {
+    /// Number of the first of them in the block.
+    first: usize,
+    loaded: Loaded,
+    /// The log time of the next one behind them, ns; `None` where they are the last.
+    next_ns: Option<u64>,
 }
 
 impl<'a> Merge<'a> {
@@ -93,7 +102,7 @@ impl<'a> Merge<'a> {
             queue: BinaryHeap::new(),
             held: BTreeMap::new(),
             held_bytes: 0,
-            loads: BTreeMap::new(),
+            begun: BTreeSet::new(),
             reading: None,
             damage: VecDeque::new(),
         };
@@ -111,18 +120,18 @@ impl<'a> Merge<'a> {
         if let Some(error) = self.damage.pop_front() {
             return Some(Err(error));
         }
-        let (due, loaded) = self.reading.as_ref()?;
-        let entry = loaded.entries.get(due.cursor)?;
-        let spot = (due.block, entry.data.start);
-        Some(Ok(Next { spot, topic: entry.channel as usize, log_time_ns: entry.log_time_ns }))
+        let (due, part) = self.reading.as_ref()?;
+        let entry = part.entry(due.cursor)?;
+        let (topic, log_time_ns) = (entry.channel as usize, entry.log_time_ns);
+        Some(Ok(Next { spot: (due.block, topic, log_time_ns), topic, log_time_ns }))
     }
 
     /// The message that was peeked at.
     pub(crate) fn take(&mut self) -> Option<Found<'_>> {
-        let (due, loaded) = self.reading.as_mut()?;
-        let entry = loaded.entries.get(due.cursor)?;
+        let (due, part) = self.reading.as_mut()?;
+        let entry = part.entry(due.cursor)?;
         due.cursor += 1;
-        Some(Found { entry, data: loaded.data(entry) })
+        Some(Found { entry, data: part.loaded.data(entry) })
     }
 
     /// Leaves out the message that was peeked at.
@@ -134,68 +143,73 @@ impl<'a> Merge<'a> {
 
     /// Makes `reading` the block with the next message.
     fn advance(&mut self) {
-        if let Some((due, loaded)) = &mut self.reading {
-            if let Some(entry) = loaded.entries.get(due.cursor) {
-                due.time_ns = entry.log_time_ns;
-                if self.queue.peek().is_none_or(|Reverse(first)| *due < *first) {
-                    return;
+        if let Some((due, part)) = self.reading.take() {
+            match part.entry(due.cursor) {
+                Some(entry) => {
+                    let due = Due { time_ns: entry.log_time_ns, ..due };
+                    if self.is_first(due) {
+                        self.reading = Some((due, part));
+                        return;
+                    }
+                    self.hold(due, part);
                 }
-                let (due, loaded) = (*due, std::mem::take(loaded));
-                self.hold(due, loaded);
+                None => self.end_of_part(due, &part),
             }
-            self.reading = None;
         }
         while let Some(Reverse(mut due)) = self.queue.pop() {
-            let loaded = match self.held.remove(&due.block) {
-                Some(loaded) => {
-                    self.held_bytes -= size_of_loaded(&loaded);
-                    loaded
+            let part = match self.held.remove(&due.block) {
+                Some(part) => {
+                    self.held_bytes -= part.size();
+                    part
                 }
                 None => self.load(due),
             };
-            let Some(entry) = loaded.entries.get(due.cursor) else { continue };
+            let Some(entry) = part.entry(due.cursor) else {
+                self.end_of_part(due, &part);
+                continue;
+            };
             due.time_ns = entry.log_time_ns;
-            if self.queue.peek().is_none_or(|Reverse(first)| due < *first) {
-                self.reading = Some((due, loaded));
+            if self.is_first(due) {
+                self.reading = Some((due, part));
                 return;
             }
-            self.hold(due, loaded);
+            self.hold(due, part);
+        }
+    }
+
+    fn is_first(&self, due: Due) -> bool {
+        self.queue.peek().is_none_or(|Reverse(first)| due < *first)
+    }
+
+    /// A part is read: the block has another one, or is done.
+    fn end_of_part(&mut self, due: Due, part: &Part) {
+        match part.next_ns {
+            Some(time_ns) => self.queue.push(Reverse(Due { time_ns, ..due })),
+            None => {
+                self.begun.remove(&due.block);
+            }
         }
     }
 
     /// Puts a block back into the queue, in memory if there is room for it.
-    fn hold(&mut self, due: Due, loaded: Loaded) {
+    fn hold(&mut self, due: Due, part: Part) {
         self.queue.push(Reverse(due));
-        self.held_bytes += size_of_loaded(&loaded);
-        self.held.insert(due.block, loaded);
+        self.held_bytes += part.size();
+        self.held.insert(due.block, part);
+        // The largest goes: loaded again, it comes in parts that leave room for the others.
         while self.held_bytes > HELD_BYTES && self.held.len() > 1 {
-            let in_memory = self.queue.iter().filter(|Reverse(due)| self.held.contains_key(&due.block));
-            let Some(Reverse(last)) = in_memory.min() else { return };
-            let last = last.block;
-            if let Some(dropped) = self.held.remove(&last) {
-                self.held_bytes -= size_of_loaded(&dropped);
-                self.loads.entry(last).or_insert(1);
-            }
+            let largest = self.held.iter().max_by_key(|(_, part)| part.size()).map(|(block, _)| *block);
+            let Some(dropped) = largest.and_then(|block| self.held.remove(&block)) else { return };
+            self.held_bytes -= dropped.size();
         }
     }
 
-    /// Loads what is wanted of a block. What cannot be loaded is damage, told the first time only.
-    fn load(&mut self, due: Due) -> Loaded {
-        let Some(located) = self.blocks.get(due.block) else { return Loaded::default() };
-        let Some(file) = self.files.get(located.file) else { return Loaded::default() };
-        let is_first = match self.loads.get_mut(&due.block) {
-            Some(loads) => {
-                *loads += 1;
-                if *loads > MOST_LOADS {
-                    let reason =
-                        "the rest of a block of messages that spans the same time as too many others";
-                    self.damage.push_back((due.block, Error::damaged(file.path(), 0, reason)));
-                    return Loaded::default();
-                }
-                false
-            }
-            None => true,
-        };
+    /// Loads what is wanted of a block: all of it the first time, and the next part of it when it had to be dropped. What
+    /// cannot be loaded is damage, told the first time only.
+    fn load(&mut self, due: Due) -> Part {
+        let Some(located) = self.blocks.get(due.block) else { return Part::default() };
+        let Some(file) = self.files.get(located.file) else { return Part::default() };
+        let is_first = self.begun.insert(due.block);
         match file.load(&located.block) {
             Ok(mut loaded) => {
                 let damage = std::mem::take(&mut loaded.damage);
@@ -203,13 +217,14 @@ impl<'a> Merge<'a> {
                     self.damage.extend(damage.into_iter().map(|error| (due.block, error)));
                 }
                 self.keep_wanted(located.file, &mut loaded.entries);
-                loaded
+                let share = if is_first { usize::MAX } else { HELD_BYTES / self.begun.len().max(1) };
+                Part::of(loaded, due.cursor, share)
             }
             Err(error) => {
                 if is_first {
                     self.damage.push_back((due.block, error));
                 }
-                Loaded::default()
+                Part::default()
             }
         }
     }
@@ -248,8 +263,49 @@ impl<'a> Merge<'a> {
     }
 }
 
-fn size_of_loaded(loaded: &Loaded) -> usize {
-    loaded.bytes.capacity() + loaded.entries.capacity() * size_of::<Entry>()
+impl Part {
+    /// The wanted messages of a block from number `first` on, as many as have `most` bytes, at least one.
+    fn of(mut loaded: Loaded, first: usize, most: usize) -> Self {
+        let mut wanted = 0;
+        let of_entry = |entry: &Entry| entry.data.len() + size_of::<Entry>();
+        let rest = loaded.entries.get(first..).unwrap_or_default();
+        let fitting = rest.iter().take_while(|entry| {
+            wanted += of_entry(entry);
+            wanted <= most
+        });
+        let end = first + fitting.count().max(1);
+        let next_ns = loaded.entries.get(end).map(|entry| entry.log_time_ns);
+        loaded.entries.truncate(end);
+        loaded.entries.drain(..first.min(loaded.entries.len()));
+        // Messages of other topics, or of other parts, can be most of a block.
+        let wanted: usize = loaded.entries.iter().map(|entry| entry.data.len()).sum();
+        if wanted < loaded.bytes.len() / 2 {
+            loaded = together(&loaded, wanted);
+        }
+        Self { first, loaded, next_ns }
+    }
+
+    /// The message with a number in the block.
+    fn entry(&self, cursor: usize) -> Option<&Entry> {
+        self.loaded.entries.get(cursor.checked_sub(self.first)?)
+    }
+
+    fn size(&self) -> usize {
+        self.loaded.bytes.capacity() + self.loaded.entries.capacity() * size_of::<Entry>()
+    }
+}
+
+/// A copy with the bytes of its messages alone, which are `wanted`.
+fn together(loaded: &Loaded, wanted: usize) -> Loaded {
+    let mut bytes = Vec::with_capacity(wanted);
+    let mut entries = Vec::with_capacity(loaded.entries.len());
+    for entry in &loaded.entries {
+        // Fewer than in the block, which is far smaller than 4 GiB.
+        let begin = bytes.len() as u32;
+        bytes.extend_from_slice(loaded.data(entry));
+        entries.push(Entry { data: begin..bytes.len() as u32, ..entry.clone() });
+    }
+    Loaded { bytes, entries, damage: Vec::new() }
 }
 
 const _: () = assert!(HELD_BYTES as u64 <= MAX_BLOCK_BYTES);
