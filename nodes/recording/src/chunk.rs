@@ -1,13 +1,14 @@
 //! The heads of MCAP chunks, and blocks of MCAP records loaded into memory.
 
-use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 use mcap::records::op;
 
 use crate::block::{Block, Chunk, Entry, Loaded, MAX_BLOCK_BYTES, Place};
 use crate::compression;
 use crate::error::Error;
-use crate::file::{HEAD, McapFile, MessageHead, records};
+use crate::file::{HEAD, McapFile, MessageHead};
+use crate::records::{Piece, Pieces};
 
 /// Start, end, size, CRC and the length of the compression's name: the head of a chunk up to that name.
 const FIXED: usize = 8 + 8 + 8 + 4 + 4;
@@ -27,7 +28,11 @@ pub(crate) struct ChunkHead {
 /// Reads the head of a chunk whose record begins at `offset` of the file, from the bytes there. `None` when they are none.
 /// The length in front of the record is not looked at.
 pub(crate) fn head_of(bytes: &[u8], offset: u64) -> Option<ChunkHead> {
-    let content = bytes.get(HEAD as usize..)?;
+    head_in(bytes.get(HEAD as usize..)?, offset.checked_add(HEAD)?)
+}
+
+/// The same, from the content of the record, which begins at `offset`.
+pub(crate) fn head_in(content: &[u8], offset: u64) -> Option<ChunkHead> {
     let (start_ns, rest) = content.split_first_chunk()?;
     let (end_ns, rest) = rest.split_first_chunk()?;
     let (size, rest) = rest.split_first_chunk()?;
@@ -37,7 +42,7 @@ pub(crate) fn head_of(bytes: &[u8], offset: u64) -> Option<ChunkHead> {
         usize::try_from(u32::from_le_bytes(*name_length)).ok().filter(|length| *length <= NAME)?;
     let (name, rest) = rest.split_at_checked(name_length)?;
     let stored = u64::from_le_bytes(*rest.first_chunk()?);
-    let begin = offset + HEAD + (FIXED + name_length + 8) as u64;
+    let begin = offset + (FIXED + name_length + 8) as u64;
     let compression =
         std::str::from_utf8(name).ok().filter(|name| name.bytes().all(|byte| byte.is_ascii_graphic()))?;
     let chunk = Chunk {
@@ -49,101 +54,179 @@ pub(crate) fn head_of(bytes: &[u8], offset: u64) -> Option<ChunkHead> {
     Some(ChunkHead { start_ns: u64::from_le_bytes(*start_ns), end_ns: u64::from_le_bytes(*end_ns), chunk })
 }
 
+/// What could be had of a chunk.
+pub(crate) struct Inside {
+    /// Its records, decompressed.
+    pub(crate) bytes: Vec<u8>,
+    /// Why they are not all, or not those that were written.
+    pub(crate) fault: Option<Error>,
+}
+
 /// The records of a chunk, decompressed and checked.
-pub(crate) fn bytes_of(file: &McapFile, chunk: &Chunk) -> Result<Vec<u8>, Error> {
+///
+/// # Errors
+/// When nothing of it can be had.
+pub(crate) fn inside(file: &McapFile, chunk: &Chunk) -> Result<Inside, Error> {
     let damaged = |reason: String| Error::damaged(file.path(), chunk.records.start, reason);
-    let stored = chunk.records.end.saturating_sub(chunk.records.start);
+    let stored = stored(chunk);
     if stored > MAX_BLOCK_BYTES || (chunk.size > MAX_BLOCK_BYTES && !chunk.compression.is_empty()) {
         let size = chunk.size;
         return Err(damaged(format!(
             "a chunk of {stored} bytes that says it decompresses to {size} bytes; accepted: {MAX_BLOCK_BYTES}"
         )));
     }
-    let bytes = compression::decompress(&chunk.compression, file.read(chunk.records.clone())?, chunk.size);
-    let bytes = bytes.map_err(damaged)?;
-    let found = if chunk.crc == 0 { 0 } else { crc32fast::hash(&bytes) };
-    if found != chunk.crc {
-        let size = bytes.len();
-        let reason =
-            format!("a chunk of {size} bytes with checksum {found:08x} instead of {:08x}", chunk.crc);
-        return Err(damaged(reason));
+    let (bytes, broken) =
+        compression::decompress(&chunk.compression, file.read(chunk.records.clone())?, chunk.size);
+    if let Some(reason) = broken {
+        let fault = damaged(reason);
+        return if bytes.is_empty() { Err(fault) } else { Ok(Inside { bytes, fault: Some(fault) }) };
     }
-    Ok(bytes)
+    let found = if chunk.crc == 0 { 0 } else { crc32fast::hash(&bytes) };
+    let size = bytes.len();
+    let fault = (found != chunk.crc).then(|| {
+        damaged(format!("a chunk of {size} bytes with checksum {found:08x} instead of {:08x}", chunk.crc))
+    });
+    Ok(Inside { bytes, fault })
 }
 
-/// Loads a block. What follows a broken record in it is lost, and its damage says where. Messages of channels that
-/// `is_described` does not know are left out.
+/// Bytes of a chunk in its file.
+pub(crate) fn stored(chunk: &Chunk) -> u64 {
+    chunk.records.end.saturating_sub(chunk.records.start)
+}
+
+/// Loads a block. Broken records in it are left out, and its damage says where. Messages of channels that `is_described`
+/// does not know are left out as well. Of a chunk that is not what was written, the messages are taken that are still
+/// framed as messages; what it is, its damage says.
 pub(crate) fn load(
     file: &McapFile,
     block: &Block,
     is_described: impl Fn(u32) -> bool,
 ) -> Result<Loaded, Error> {
-    let (bytes, offset, what) = match &block.place {
+    let (Inside { bytes, fault }, offset, stored, is_compressed) = match &block.place {
         Place::Chunk(chunk) => {
-            let what = if chunk.compression.is_empty() { "" } else { " of the decompressed chunk" };
-            (bytes_of(file, chunk)?, chunk.records.start, what)
+            (inside(file, chunk)?, chunk.records.start, stored(chunk), !chunk.compression.is_empty())
         }
-        Place::Row { records } => (file.read(records.clone())?, records.start, ""),
+        Place::Row { records } => {
+            let bytes = file.read(records.clone())?;
+            let stored = bytes.len() as u64;
+            (Inside { bytes, fault: None }, records.start, stored, false)
+        }
         Place::Sqlite { .. } => return Ok(Loaded::default()),
     };
-    let damaged = |at: usize, reason: &str| match what {
-        "" => Error::damaged(file.path(), offset + at as u64, reason),
-        _ => Error::damaged(file.path(), offset, format!("{reason}, at byte {at}{what}")),
+    let standing = |channel: u16| match &block.channels {
+        _ if !is_described(channel.into()) => Standing::Undescribed,
+        Some(listed) if listed.binary_search(&channel.into()).is_err() => Standing::Unlisted,
+        _ => Standing::Known,
     };
-    let mut damage = Vec::new();
-    let mut undescribed = BTreeMap::<u16, u64>::new();
-    let mut short = Strange::default();
-    let mut unknown = Strange::default();
+    let mut lost = Strange::default();
+    let mut undescribed = Strange::default();
+    let mut unlisted = Strange::default();
+    // Messages of a channel come in rows.
+    let mut last = None;
     // A pose with its head has some 160 bytes.
     let mut entries = Vec::with_capacity(bytes.len() / 128);
-    for record in records(&bytes) {
-        match record {
-            Ok(record) if record.opcode == op::MESSAGE => match MessageHead::split(record.content) {
-                Some((head, data)) if is_described(head.channel.into()) => {
-                    let end = record.offset + HEAD as usize + record.content.len();
-                    entries.push(Entry {
-                        log_time_ns: head.log_time_ns,
-                        publish_time_ns: head.publish_time_ns,
-                        sequence: head.sequence,
-                        channel: head.channel.into(),
-                        // Blocks are smaller than 4 GiB.
-                        data: (end - data.len()) as u32..end as u32,
-                    });
-                }
-                Some((head, _)) => *undescribed.entry(head.channel).or_default() += 1,
-                None => short.add(record.offset),
-            },
-            // Records of applications begin at 0x80; between them and those of the format there are none yet.
-            Ok(record) if !(op::HEADER..=op::DATA_END).contains(&record.opcode) && record.opcode < 0x80 => {
-                unknown.add(record.offset);
+    let mut pieces = Pieces::new(&bytes, stored);
+    while let Some(piece) = pieces.next(|channel| is_described(channel.into())) {
+        let record = match piece {
+            Piece::Record(record) if record.opcode == op::MESSAGE => record,
+            Piece::Record(_) => continue,
+            Piece::Lost(range) => {
+                lost.add(range.start, range.len() as u64);
+                continue;
             }
-            Ok(_) => {}
-            Err(at) => damage.push(damaged(at, "a record is longer than the chunk it is in")),
+        };
+        let Some((head, data)) = MessageHead::split(record.content) else { continue };
+        let standing = match last {
+            Some((channel, standing)) if channel == head.channel => standing,
+            _ => standing(head.channel),
+        };
+        last = Some((head.channel, standing));
+        match standing {
+            Standing::Known => {}
+            Standing::Unlisted => unlisted.add(usize::from(head.channel), 1),
+            Standing::Undescribed => {
+                undescribed.add(usize::from(head.channel), 1);
+                continue;
+            }
         }
+        let end = record.offset + HEAD as usize + record.content.len();
+        entries.push(Entry {
+            log_time_ns: head.log_time_ns,
+            publish_time_ns: head.publish_time_ns,
+            sequence: head.sequence,
+            channel: head.channel.into(),
+            // Blocks are smaller than 4 GiB.
+            data: (end - data.len()) as u32..end as u32,
+        });
     }
-    for (strange, what) in [(short, "messages shorter than their head"), (unknown, "records of unknown kind")]
-    {
-        if let Some(first) = strange.first {
-            damage.push(damaged(first, &format!("{} {what}, the first one here", strange.count)));
-        }
+    if fault.is_some() {
+        let times_ns = block.start_ns..=block.end_ns;
+        leave_out_wrong_times(&mut entries, &times_ns, |entry| entry.log_time_ns);
     }
-    for (channel, count) in undescribed {
-        let reason = format!("{count} messages of channel {channel}, which is nowhere described");
-        damage.push(damaged(0, &reason));
-    }
+    let damaged = |at: usize, reason: String| match is_compressed {
+        false => Error::damaged(file.path(), offset + at as u64, reason),
+        true => Error::damaged(
+            file.path(),
+            offset,
+            format!("{reason}, at byte {at} of the decompressed chunk"),
+        ),
+    };
+    let mut damage: Vec<Error> = fault.into_iter().collect();
+    damage.extend(lost.first.map(|at| damaged(at, lost_inside(lost.count, is_compressed))));
+    damage.extend(undescribed.first.map(|channel| {
+        let count = undescribed.count;
+        damaged(0, format!("{count} messages of channels that are nowhere described, the first of channel {channel}"))
+    }));
+    damage.extend(unlisted.first.map(|channel| {
+        let count = unlisted.count;
+        let reason = format!(
+            "{count} messages of channels that the index does not list for this chunk, the first of channel {channel}; \
+             they are read"
+        );
+        damaged(0, reason)
+    }));
     Ok(Loaded::new(bytes, entries, damage))
 }
 
-/// Records that are left out: a block can have millions of them, and they get one sentence.
+/// What to say of bytes in a block that are no records.
+pub(crate) fn lost_inside(bytes: u64, is_compressed: bool) -> String {
+    let what = if is_compressed { "decompressed bytes" } else { "bytes" };
+    format!("broken records: {bytes} {what} are left out, the first ones here")
+}
+
+/// Of a chunk with a wrong checksum: a few messages far from its times have a broken time.
+pub(crate) fn leave_out_wrong_times<T>(
+    messages: &mut Vec<T>,
+    times_ns: &RangeInclusive<u64>,
+    time_of: impl Fn(&T) -> u64,
+) {
+    let is_inside = |message: &T| times_ns.contains(&time_of(message));
+    // Or its times are what is broken.
+    if messages.iter().filter(|message| is_inside(message)).count() * 2 > messages.len() {
+        messages.retain(is_inside);
+    }
+}
+
+/// What is known of a channel.
+#[derive(Clone, Copy)]
+enum Standing {
+    Known,
+    /// Not in the index of this chunk.
+    Unlisted,
+    /// It has no topic.
+    Undescribed,
+}
+
+/// What is not as it should be: a block can have millions of them, and they get one sentence.
 #[derive(Default)]
-struct Strange {
-    count: u64,
-    first: Option<usize>,
+pub(crate) struct Strange {
+    pub(crate) count: u64,
+    pub(crate) first: Option<usize>,
 }
 
 impl Strange {
-    fn add(&mut self, offset: usize) {
-        self.count += 1;
-        self.first.get_or_insert(offset);
+    pub(crate) fn add(&mut self, first: usize, count: u64) {
+        self.count += count;
+        self.first.get_or_insert(first);
     }
 }

@@ -6,15 +6,17 @@ use std::fs::File;
 use std::io::{BufReader, Read, Write};
 use std::path::Path;
 
-use tempfile::NamedTempFile;
+use tempfile::TempPath;
 
 use crate::block::MAX_BLOCK_BYTES;
 use crate::error::Error;
 
 /// The largest window of a zstd frame, 2 to this power: that of a frame made with `zstd -19`, and no more memory than a block.
 pub(crate) const WINDOW_LOG: u32 = 26;
-/// Bytes that a whole recording may decompress to, whatever its size ...
+/// Bytes that the chunks of a file may decompress to altogether, whatever its size ...
 const ANY_FILE_BYTES: u64 = 1 << 30;
+/// ... those of a file that is compressed as a whole, which lie on a disk and can be a hundred million records ...
+const ANY_WHOLE_FILE_BYTES: u64 = 1 << 28;
 /// ... and for each of its own bytes. Together they stop a bomb long before it fills a disk or takes minutes.
 const BYTES_PER_BYTE: u64 = 100;
 /// Read and written at once.
@@ -28,38 +30,34 @@ pub(crate) fn allowance(file_bytes: u64) -> u64 {
     file_bytes.saturating_mul(BYTES_PER_BYTE).saturating_add(ANY_FILE_BYTES)
 }
 
-/// The inside of a chunk; `size` is what its head says.
-///
-/// # Errors
-/// A sentence without the place.
-pub(crate) fn decompress(compression: &str, stored: Vec<u8>, size: u64) -> Result<Vec<u8>, String> {
+/// The inside of a chunk; `size` is what its head says. Where the compression is broken or says another size: what comes
+/// out before, and a sentence without the place.
+pub(crate) fn decompress(compression: &str, stored: Vec<u8>, size: u64) -> (Vec<u8>, Option<String>) {
     let failed = |error: std::io::Error| {
         format!("a chunk whose {compression} compression is broken ({error}), {} bytes", stored.len())
     };
     // One byte more than it says tells a bomb.
     let most = size.min(MAX_BLOCK_BYTES) + 1;
     let mut bytes = Vec::with_capacity(if compression.is_empty() { 0 } else { most as usize });
-    match compression {
-        "" => return Ok(stored),
-        "zstd" => {
-            let mut decoder = zstd::stream::read::Decoder::with_buffer(&stored[..]).map_err(failed)?;
-            decoder.window_log_max(WINDOW_LOG).map_err(failed)?;
-            decoder.take(most).read_to_end(&mut bytes).map_err(failed)?;
+    let decompressed = match compression {
+        "" => return (stored, None),
+        "zstd" => zstd::stream::read::Decoder::with_buffer(&stored[..]).and_then(|mut decoder| {
+            decoder.window_log_max(WINDOW_LOG)?;
+            decoder.take(most).read_to_end(&mut bytes)
+        }),
+        "lz4" => lz4_flex::frame::FrameDecoder::new(&stored[..]).take(most).read_to_end(&mut bytes),
+        other => return (bytes, Some(unknown(other))),
+    };
+    let fault = match decompressed {
+        Err(error) => Some(failed(error)),
+        Ok(_) if bytes.len() as u64 != size => {
+            let than = if bytes.len() as u64 > size { "more" } else { "less" };
+            let stored = stored.len();
+            Some(format!("a chunk of {stored} bytes that decompresses to {than} than the {size} bytes it says"))
         }
-        "lz4" => {
-            let decoder = lz4_flex::frame::FrameDecoder::new(&stored[..]);
-            decoder.take(most).read_to_end(&mut bytes).map_err(failed)?;
-        }
-        other => return Err(unknown(other)),
-    }
-    if bytes.len() as u64 != size {
-        let than = if bytes.len() as u64 > size { "more" } else { "less" };
-        let stored = stored.len();
-        return Err(format!(
-            "a chunk of {stored} bytes that decompresses to {than} than the {size} bytes it says"
-        ));
-    }
-    Ok(bytes)
+        Ok(_) => None,
+    };
+    (bytes, fault)
 }
 
 /// What to say about a chunk with a compression that is not read.
@@ -69,7 +67,7 @@ pub(crate) fn unknown(compression: &str) -> String {
 
 /// Decompresses a file that rosbag2 compressed as a whole. The temporary file goes with the value; its name has that of the
 /// original in it. What came out before a broken place is kept, with the error.
-pub(crate) fn whole_file(path: &Path) -> Result<(NamedTempFile, Option<Error>), Error> {
+pub(crate) fn whole_file(path: &Path) -> Result<(TempPath, Option<Error>), Error> {
     let source = File::open(path).map_err(Error::io(path, "open"))?;
     let length = source.metadata().map_err(Error::io(path, "open"))?.len();
     let name = path.file_stem().unwrap_or_default();
@@ -91,7 +89,7 @@ pub(crate) fn whole_file(path: &Path) -> Result<(NamedTempFile, Option<Error>), 
         Err(error) => return Err(broken(0, &error)),
     };
     decoder.window_log_max(WINDOW_LOG + 1).map_err(Error::io(path, "decompress"))?;
-    let most = allowance(length);
+    let most = allowance(length) - ANY_FILE_BYTES + ANY_WHOLE_FILE_BYTES;
     let mut piece = vec![0; PIECE_BYTES];
     let mut written = 0_u64;
     let damage = loop {
@@ -113,5 +111,6 @@ pub(crate) fn whole_file(path: &Path) -> Result<(NamedTempFile, Option<Error>), 
             Err(error) => break Some(broken(written, &error)),
         }
     };
-    Ok((temporary, damage))
+    // Its handle is not needed: a recording can have more parts than a process may have open files.
+    Ok((temporary.into_temp_path(), damage))
 }

@@ -7,6 +7,7 @@ use std::fs::File;
 use std::ops::Range;
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use mcap::records::Record;
 
@@ -18,13 +19,39 @@ pub(crate) const HEAD: u64 = 9;
 /// Channel, sequence, log time and publish time in front of the data of a message.
 pub(crate) const MESSAGE_HEAD: usize = 22;
 
-/// An open MCAP file.
+/// Files that stay open between reads, of all recordings of a process. A system lets a process have 1024 or so, and a
+/// recording can have more parts than that: the others are opened for each read.
+const MOST_KEPT_OPEN: usize = 64;
+static KEPT_OPEN: AtomicUsize = AtomicUsize::new(0);
+
+/// An MCAP file.
 #[derive(Debug)]
 pub(crate) struct McapFile {
-    /// As it is called; the bytes may come from a decompressed copy.
+    /// As it is called.
     path: PathBuf,
-    file: File,
+    /// Where its bytes are: a decompressed copy, or the same.
+    readable: PathBuf,
+    kept: Option<KeptOpen>,
     len: u64,
+}
+
+/// One of the files that stay open.
+#[derive(Debug)]
+struct KeptOpen(File);
+
+impl KeptOpen {
+    /// `None` where there are enough of them.
+    fn new(file: File) -> Option<Self> {
+        let one_more = |kept| (kept < MOST_KEPT_OPEN).then_some(kept + 1);
+        let has_room = KEPT_OPEN.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more).is_ok();
+        has_room.then_some(Self(file))
+    }
+}
+
+impl Drop for KeptOpen {
+    fn drop(&mut self) {
+        KEPT_OPEN.fetch_sub(1, Ordering::Relaxed);
+    }
 }
 
 impl McapFile {
@@ -36,7 +63,7 @@ impl McapFile {
             let reason = "the file is empty".to_owned();
             return Err(Error::NotARecording { path: path.to_owned(), reason });
         }
-        Ok(Self { path: path.to_owned(), file, len })
+        Ok(Self { path: path.to_owned(), readable: readable.to_owned(), kept: KeptOpen::new(file), len })
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -62,7 +89,13 @@ impl McapFile {
             .ok_or_else(|| Error::damaged(&self.path, range.start, "the file ends inside a record"))?;
         bytes.clear();
         bytes.resize(size, 0);
-        self.file.read_exact_at(bytes, range.start).map_err(Error::io(&self.path, "read"))
+        match &self.kept {
+            Some(KeptOpen(file)) => file.read_exact_at(bytes, range.start),
+            None => File::open(&self.readable)
+                .map_err(Error::io(&self.path, "open"))?
+                .read_exact_at(bytes, range.start),
+        }
+        .map_err(Error::io(&self.path, "read"))
     }
 
     /// The content of a record, parsed. Its lengths are checked before: the parser allocates what they say.

@@ -3,12 +3,11 @@
 //! A head says kind and length, and either may be broken. A record whose inner lengths add up to that length is one
 //! for sure. A message has no inner lengths: it is one when a record follows it.
 
-use std::collections::BTreeSet;
-
 use mcap::records::op;
 
 use crate::block::MAX_BLOCK_BYTES;
 use crate::chunk::{self, ChunkHead, LONGEST_HEAD};
+use crate::described::Definition;
 use crate::error::Error;
 use crate::file::{HEAD, MESSAGE_HEAD, McapFile, split_record};
 
@@ -20,6 +19,12 @@ const NEAR_BYTES: u64 = 16 << 10;
 const SEARCH_BYTES: u64 = 1 << 20;
 /// A definition, an index or metadata larger than this is only looked at from outside.
 const LARGEST_LOOK: u64 = 1 << 20;
+/// Looks of this size cost about what finding their place costs.
+const SMALL_LOOK: u64 = 256;
+/// Bytes that may be looked at in larger ones, whatever the size of the file, and for each of its bytes. A file that is
+/// read record by record needs two; one made of the beginnings of large records would take hours without a bound.
+const LOOKS_OF_ANY_FILE: u64 = 64 << 20;
+const LOOKS_PER_BYTE: u64 = 4;
 /// So many messages in a row are no accident.
 const ROW: usize = 3;
 
@@ -39,6 +44,8 @@ pub(crate) struct View<'a> {
     file: &'a McapFile,
     near: Window,
     search: Window,
+    /// Bytes that may still be looked at inside of records.
+    looks_left: u64,
 }
 
 /// Bytes of a file in memory.
@@ -66,11 +73,19 @@ impl Window {
         let range = (begin - self.start) as usize..(end - self.start) as usize;
         Ok(self.bytes.get(range).unwrap_or_default())
     }
+
+    /// What is in memory from `offset` on: `least` bytes, and what was read ahead.
+    fn rest(&mut self, file: &McapFile, offset: u64, least: u64, ahead: u64) -> Result<&[u8], Error> {
+        self.get(file, offset, least, ahead)?;
+        let begin = offset.saturating_sub(self.start) as usize;
+        Ok(self.bytes.get(begin..).unwrap_or_default())
+    }
 }
 
 impl<'a> View<'a> {
     pub(crate) fn new(file: &'a McapFile) -> Self {
-        Self { file, near: Window::default(), search: Window::default() }
+        let looks_left = LOOKS_OF_ANY_FILE.saturating_add(file.len().saturating_mul(LOOKS_PER_BYTE));
+        Self { file, near: Window::default(), search: Window::default(), looks_left }
     }
 
     /// Up to `length` bytes at `offset`.
@@ -102,6 +117,15 @@ impl<'a> View<'a> {
             op::HEADER..=op::DATA_END => length,
             _ => return Ok(Fit::Maybe(end)),
         };
+        if look > SMALL_LOOK {
+            match self.looks_left.checked_sub(look) {
+                Some(left) => self.looks_left = left,
+                None => return Ok(Fit::Maybe(end)),
+            }
+        }
+        if look < least_size(opcode) {
+            return Ok(Fit::No);
+        }
         let content = self.bytes(offset, HEAD + look)?.get(HEAD as usize..).unwrap_or_default();
         Ok(match size_of_content(opcode, content) {
             Some(size) if size == length => Fit::Sure(end),
@@ -119,18 +143,23 @@ impl<'a> View<'a> {
     /// The chunk at `offset` by what is inside of it, whatever kind and length its head says, and where it ends.
     pub(crate) fn chunk(&mut self, offset: u64) -> Result<Option<(ChunkHead, u64)>, Error> {
         let file_len = self.file.len();
-        let head = chunk::head_of(self.bytes(offset, LONGEST_HEAD as u64)?, offset);
+        let head = self.beginning_of_chunk(offset)?;
         Ok(head.and_then(|head| {
             let end = head.chunk.records.end;
             (end <= file_len && head.start_ns <= head.end_ns).then_some((head, end))
         }))
     }
 
+    /// The same, wherever it ends.
+    pub(crate) fn beginning_of_chunk(&mut self, offset: u64) -> Result<Option<ChunkHead>, Error> {
+        Ok(chunk::head_of(self.bytes(offset, LONGEST_HEAD as u64)?, offset))
+    }
+
     /// The first place from `from` on where records go on; messages count when their channel is one of `channels`.
-    pub(crate) fn search(&mut self, from: u64, channels: &BTreeSet<u16>) -> Result<Option<u64>, Error> {
+    pub(crate) fn search(&mut self, from: u64, channels: &ChannelSet) -> Result<Option<u64>, Error> {
         let mut offset = from;
         while offset + HEAD <= self.file.len() {
-            let bytes = self.search.get(self.file, offset, SEARCH_BYTES, SEARCH_BYTES)?;
+            let bytes = self.search.rest(self.file, offset, HEAD, SEARCH_BYTES)?;
             let heads = bytes.windows(HEAD as usize);
             // Lengths are below 2^40.
             let candidate =
@@ -149,7 +178,7 @@ impl<'a> View<'a> {
     }
 
     /// Whether a sure record begins at `offset`, or a row of messages.
-    fn is_row(&mut self, mut offset: u64, channels: &BTreeSet<u16>) -> Result<bool, Error> {
+    fn is_row(&mut self, mut offset: u64, channels: &ChannelSet) -> Result<bool, Error> {
         for _ in 0..ROW {
             let end = match self.fit(offset)? {
                 Fit::Sure(_) => return Ok(true),
@@ -158,7 +187,7 @@ impl<'a> View<'a> {
             };
             let head = self.bytes(offset, HEAD + 2)?;
             let [op::MESSAGE, .., low, high] = *head else { return Ok(false) };
-            if !channels.contains(&u16::from_le_bytes([low, high])) || end - offset > MAX_BLOCK_BYTES {
+            if !channels.contains(u16::from_le_bytes([low, high])) || end - offset > MAX_BLOCK_BYTES {
                 return Ok(false);
             }
             if end == self.file.len() {
@@ -170,10 +199,52 @@ impl<'a> View<'a> {
     }
 }
 
+/// The numbers of channels.
+#[derive(Debug, Clone)]
+pub(crate) struct ChannelSet(Vec<bool>);
+
+impl Default for ChannelSet {
+    fn default() -> Self {
+        Self(vec![false; usize::from(u16::MAX) + 1])
+    }
+}
+
+impl ChannelSet {
+    pub(crate) fn insert(&mut self, channel: u16) {
+        if let Some(is_in) = self.0.get_mut(usize::from(channel)) {
+            *is_in = true;
+        }
+    }
+
+    /// The channel that is described, if it is one.
+    pub(crate) fn insert_described(&mut self, definition: &Definition<'_>) {
+        if let Definition::Channel { id, .. } = definition {
+            self.insert(*id);
+        }
+    }
+
+    pub(crate) fn contains(&self, channel: u16) -> bool {
+        self.0.get(usize::from(channel)) == Some(&true)
+    }
+}
+
+/// The least a record of a kind has: its fields with empty texts and lists.
+pub(crate) fn least_size(opcode: u8) -> u64 {
+    match opcode {
+        op::HEADER => 4 + 4,
+        op::SCHEMA => 2 + 3 * 4,
+        op::CHANNEL => 2 + 2 + 3 * 4,
+        op::CHUNK => 8 + 8 + 8 + 4 + 4 + 8,
+        op::CHUNK_INDEX => 4 * 8 + 4 + 8 + 4 + 8 + 8,
+        op::ATTACHMENT => 8 + 8 + 4 + 4 + 8,
+        _ => 0,
+    }
+}
+
 /// How long the content of a record is by its own lengths; `None` when it is shorter than its fields. Of a chunk and an
 /// attachment the beginning is enough.
 pub(crate) fn size_of_content(opcode: u8, content: &[u8]) -> Option<u64> {
-    let mut fields = Fields { content, at: 0 };
+    let mut fields = Fields::new(content);
     match opcode {
         op::HEADER => fields.blocks(2)?,
         op::FOOTER => fields.skip(8 + 8 + 4)?,
@@ -187,13 +258,8 @@ pub(crate) fn size_of_content(opcode: u8, content: &[u8]) -> Option<u64> {
             fields.map()?;
         }
         op::CHUNK => {
-            let mut head = vec![opcode; HEAD as usize];
-            head.extend_from_slice(content);
-            let chunk = chunk::head_of(&head, 0)?;
-            if chunk.start_ns > chunk.end_ns {
-                return None;
-            }
-            return Some(chunk.chunk.records.end - HEAD);
+            let chunk = chunk::head_in(content, 0)?;
+            return (chunk.start_ns <= chunk.end_ns).then_some(chunk.chunk.records.end);
         }
         op::MESSAGE_INDEX => {
             fields.skip(2)?;
@@ -236,12 +302,30 @@ pub(crate) fn size_of_content(opcode: u8, content: &[u8]) -> Option<u64> {
 }
 
 /// Goes through the fields of a record.
-struct Fields<'a> {
+pub(crate) struct Fields<'a> {
     content: &'a [u8],
     at: usize,
 }
 
-impl Fields<'_> {
+impl<'a> Fields<'a> {
+    pub(crate) fn new(content: &'a [u8]) -> Self {
+        Self { content, at: 0 }
+    }
+
+    /// Two bytes.
+    pub(crate) fn number(&mut self) -> Option<u16> {
+        let begin = self.at;
+        self.skip(2)?;
+        self.content.get(begin..)?.first_chunk().copied().map(u16::from_le_bytes)
+    }
+
+    /// A text, map or list without its length.
+    pub(crate) fn block(&mut self) -> Option<&'a [u8]> {
+        let begin = self.at.checked_add(4)?;
+        self.blocks(1)?;
+        self.content.get(begin..self.at)
+    }
+
     fn skip(&mut self, length: usize) -> Option<()> {
         self.at = self.at.checked_add(length).filter(|at| *at <= self.content.len())?;
         Some(())
@@ -254,9 +338,7 @@ impl Fields<'_> {
 
     /// Pairs of texts.
     fn map(&mut self) -> Option<()> {
-        let begin = self.at + 4;
-        self.blocks(1)?;
-        let mut pairs = Fields { content: self.content.get(begin..self.at)?, at: 0 };
+        let mut pairs = Fields::new(self.block()?);
         while pairs.at < pairs.content.len() {
             pairs.blocks(2)?;
         }

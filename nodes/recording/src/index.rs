@@ -5,28 +5,24 @@
 //! an index fails to mention is found as well; and behind a broken place the walk goes on with the next record there is.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
 
 use mcap::records::op;
 
-use crate::MessageDefinition;
 use crate::block::{Block, Chunk, FileIndex, MAX_BLOCK_BYTES, Place};
-use crate::chunk::{self, ChunkHead};
+use crate::chunk::{self, ChunkHead, Inside, Strange};
 use crate::compression;
+use crate::described::{Definition, Definitions};
 use crate::error::Error;
-use crate::file::{HEAD, MESSAGE_HEAD, McapFile, MessageHead, records as records_in};
-use crate::fit::{Fit, View};
-use crate::qos;
-use crate::summary::{self, Definitions, Ending, Summary};
-use crate::topic::{RecordedTopic, Topic};
+use crate::file::{HEAD, MESSAGE_HEAD, McapFile, MessageHead};
+use crate::fit::{ChannelSet, Fit, View};
+use crate::records::{Piece, Pieces};
+use crate::summary::{self, Ending, Summary};
 
 /// Messages outside of chunks are taken together up to this many bytes.
 const ROW_BYTES: u64 = 1 << 20;
 /// Broken places that are told one by one.
 const TOLD: usize = 1000;
-/// Longest text of a quality of service. One publisher has 300 bytes, and reading YAML takes fifty times its size.
-const QOS_BYTES: usize = 1 << 18;
-/// What the definitions of all topics may take. A type has a few kB, and each of its topics has its own copy.
-const DEFINITIONS_BYTES: usize = 32 << 20;
 
 /// Finds what is in `file`. Its chunks may decompress to `allowance` bytes altogether.
 ///
@@ -35,6 +31,7 @@ const DEFINITIONS_BYTES: usize = 32 << 20;
 pub(crate) fn of(file: &McapFile, allowance: u64) -> Result<FileIndex, Error> {
     let mut view = View::new(file);
     let ending = summary::read(file)?;
+    let mut lie = None;
     if let Ending::Whole(summary) = &ending {
         let mut walk = Walk::new(file, allowance, Some(summary));
         walk.go(&mut view)?;
@@ -43,17 +40,26 @@ pub(crate) fn of(file: &McapFile, allowance: u64) -> Result<FileIndex, Error> {
             walk.counts.clone_from(&summary.statistics.channel_message_counts);
             return Ok(walk.finish());
         }
+        lie = walk.lie;
     }
     let mut walk = Walk::new(file, allowance, None);
     if let Ending::Whole(summary) = &ending
         && summary.is_checked
     {
         walk.definitions = summary.definitions.clone();
+        walk.definitions.channels().for_each(|id| walk.channels.insert(id));
     }
     walk.go(&mut view)?;
     match ending {
         Ending::Whole(summary) => {
             walk.definitions.complete_from(&summary.definitions);
+            if let Some(offset) = lie {
+                walk.note_at(offset, || {
+                    "a chunk of which the summary lists other channels than the indexes behind it; the file is read \
+                     without its summary"
+                        .to_owned()
+                });
+            }
             walk.compare_with(&summary);
         }
         Ending::Broken(error) if walk.is_closed => walk.note(error),
@@ -76,7 +82,15 @@ struct Walk<'a> {
     /// Bytes that chunks may still decompress to.
     allowance: u64,
     definitions: Definitions,
+    /// From chunks that are not what was written: what is nowhere else.
+    doubtful: Definitions,
+    /// The channels heard of so far.
+    channels: ChannelSet,
     counts: BTreeMap<u16, u64>,
+    /// Where the last chunk begins, and those of its channels of which no message index came yet.
+    unseen: Option<(u64, Vec<u32>)>,
+    /// The first chunk of which the summary lists other channels than the message indexes behind it.
+    lie: Option<u64>,
     blocks: Vec<Block>,
     chunks: u64,
     loose_messages: u64,
@@ -87,11 +101,17 @@ struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn new(file: &'a McapFile, allowance: u64, summary: Option<&'a Summary>) -> Self {
+        let mut channels = ChannelSet::default();
+        summary.iter().flat_map(|summary| summary.definitions.channels()).for_each(|id| channels.insert(id));
         Self {
             file,
             summary,
             allowance,
             definitions: Definitions::default(),
+            doubtful: Definitions::default(),
+            channels,
+            unseen: None,
+            lie: None,
             counts: BTreeMap::new(),
             blocks: Vec::new(),
             chunks: 0,
@@ -106,10 +126,10 @@ impl<'a> Walk<'a> {
         let magic = mcap::MAGIC.len() as u64;
         let mut offset = magic;
         if view.bytes(0, magic)? != mcap::MAGIC {
-            self.note(self.damaged(0, "the file does not begin with the MCAP magic bytes"));
+            self.note_at(0, || "the file does not begin with the MCAP magic bytes".to_owned());
             // Bytes may be missing or too many here.
             let is_whole_behind = matches!(view.fit(magic)?, Fit::Sure(_));
-            match if is_whole_behind { Some(magic) } else { view.search(0, &self.channels())? } {
+            match if is_whole_behind { Some(magic) } else { view.search(0, &self.channels)? } {
                 Some(found) => offset = found,
                 None => return Ok(()),
             }
@@ -118,9 +138,11 @@ impl<'a> Walk<'a> {
             offset = self.step(view, offset)?;
         }
         if !self.is_closed {
-            let reason = "the file ends without its closing records: its recorder was stopped hard";
-            self.note(self.damaged(self.file.len(), reason));
+            self.note_at(self.file.len(), || {
+                "the file ends without its closing records: its recorder was stopped hard".to_owned()
+            });
         }
+        self.end_of_indexes();
         Ok(())
     }
 
@@ -136,10 +158,10 @@ impl<'a> Walk<'a> {
             && end < self.file.len()
             && view.goes_on(end)?
         {
-            self.note(self.damaged(offset, "a chunk whose record has a wrong kind or length"));
+            self.note_at(offset, || "a chunk whose record has a wrong kind or length".to_owned());
             return self.take_chunk(offset, end, head);
         }
-        let next = view.search(offset + 1, &self.channels())?;
+        let next = view.search(offset + 1, &self.channels)?;
         let end_of_damage = next.unwrap_or(self.file.len());
         if let Fit::Maybe(end) = fit
             && end <= end_of_damage
@@ -148,16 +170,23 @@ impl<'a> Walk<'a> {
             return self.take(view, offset, end);
         }
         let lost = end_of_damage - offset;
-        let reason = match view.head(offset)? {
-            Some((kind, length)) => {
-                let left = self.file.len() - offset - HEAD;
-                format!(
-                    "a broken record (kind {kind:#04x}, {length} bytes, and {left} bytes are left in the file); {lost} bytes are left out"
-                )
-            }
+        let left = (self.file.len() - offset).saturating_sub(HEAD);
+        let head = view.head(offset)?;
+        self.note_at(offset, || match head {
+            Some((kind, length)) => format!(
+                "a broken record (kind {kind:#04x}, {length} bytes, and {left} bytes are left in the file); {lost} bytes are left out"
+            ),
             None => format!("the file ends inside a record, after {lost} bytes of it"),
-        };
-        self.note(self.damaged(offset, reason));
+        });
+        // Of a compressed chunk that is cut, some decompresses.
+        if let Some((op::CHUNK, _)) = head
+            && let Some(mut cut) = view.beginning_of_chunk(offset)?
+            && !cut.chunk.compression.is_empty()
+            && (cut.chunk.records.start..cut.chunk.records.end).contains(&end_of_damage)
+        {
+            cut.chunk.records.end = end_of_damage;
+            return self.take_chunk(offset, end_of_damage, cut);
+        }
         Ok(end_of_damage)
     }
 
@@ -178,17 +207,25 @@ impl<'a> Walk<'a> {
                 }
             }
             op::SCHEMA | op::CHANNEL if self.summary.is_none() && end - offset <= MAX_BLOCK_BYTES => {
-                let content = self.file.read(offset + HEAD..end)?;
-                match self.file.parse(opcode, &content, offset) {
-                    Ok(definition) => self.definitions.add(definition),
-                    Err(error) => self.note(error),
+                let record = view.bytes(offset, end - offset)?;
+                let definition = Definition::parse(opcode, record.get(HEAD as usize..).unwrap_or_default());
+                match definition {
+                    Ok(definition) => {
+                        self.channels.insert_described(&definition);
+                        self.definitions.add(definition);
+                    }
+                    Err(reason) => self.note_at(offset, || of_kind(opcode, reason)),
                 }
+            }
+            op::MESSAGE_INDEX if self.summary.is_some() => {
+                let channel = view.bytes(offset + HEAD, 2)?.first_chunk().copied().map(u16::from_le_bytes);
+                self.take_message_index(channel);
             }
             // Records of applications begin at 0x80; between them and those of the format there are none yet.
             _ if !(op::HEADER..=op::DATA_END).contains(&opcode) && opcode < 0x80 => {
-                let reason =
-                    format!("a record of unknown kind {opcode:#04x}; {} bytes are left out", end - offset);
-                self.note(self.damaged(offset, reason));
+                self.note_at(offset, || {
+                    format!("a record of unknown kind {opcode:#04x}; {} bytes are left out", end - offset)
+                });
             }
             _ => {}
         }
@@ -198,16 +235,17 @@ impl<'a> Walk<'a> {
     fn take_chunk(&mut self, offset: u64, end: u64, head: ChunkHead) -> Result<u64, Error> {
         let ChunkHead { start_ns, end_ns, chunk } = head;
         self.chunks += 1;
+        self.end_of_indexes();
         if !compression::KNOWN.contains(&chunk.compression.as_str()) {
-            self.note(self.damaged(offset, compression::unknown(&chunk.compression)));
+            self.note_at(offset, || compression::unknown(&chunk.compression));
             return Ok(end);
         }
         let is_plain = chunk.compression.is_empty();
-        let stored = chunk.records.end - chunk.records.start;
+        let stored = chunk::stored(&chunk);
         if is_plain && chunk.size != stored {
-            let reason =
-                format!("a chunk of {stored} bytes without compression that says it has {}", chunk.size);
-            self.note(self.damaged(offset, reason));
+            self.note_at(offset, || {
+                format!("a chunk of {stored} bytes without compression that says it has {}", chunk.size)
+            });
         }
         if is_plain && stored > MAX_BLOCK_BYTES {
             // Too large for one block: its records are taken one by one as if there were no chunk.
@@ -215,77 +253,126 @@ impl<'a> Walk<'a> {
         }
         if !is_plain {
             let Some(left) = self.allowance.checked_sub(chunk.size.min(MAX_BLOCK_BYTES)) else {
-                let reason =
-                    "a chunk behind others that decompress to more than is accepted of a file of this size";
-                self.note(self.damaged(offset, reason));
+                self.note_at(offset, || {
+                    "a chunk behind others that decompress to more than is accepted of a file of this size".to_owned()
+                });
                 return Ok(end);
             };
             self.allowance = left;
         }
-        let indexed = self.summary.and_then(|summary| summary.chunks.get(&offset));
+        let indexed = self.summary.and_then(|summary| Some((summary, summary.chunks.get(&offset)?)));
         // Times that are zero are those of a chunk without messages, as in a recording that has none.
-        let has_times = (start_ns, end_ns) != (0, 0) && !is_empty(&chunk);
-        let is_as_indexed = indexed.is_some_and(|index| {
+        let has_times = (start_ns, end_ns) != (0, 0) && !chunk.records.is_empty();
+        let is_as_indexed = indexed.is_some_and(|(_, index)| {
             index.message_start_time == start_ns && index.message_end_time == end_ns && has_times
         });
         match indexed {
-            Some(index) if is_as_indexed => {
-                let channels: Box<[u32]> =
-                    index.message_index_offsets.keys().map(|id| u32::from(*id)).collect();
-                // Without message indexes the chunk may still have messages.
-                let channels = (!channels.is_empty()).then_some(channels);
+            Some((summary, index)) if is_as_indexed => {
+                let channels: Vec<u32> = index.message_index_offsets.keys().copied().map(u32::from).collect();
+                self.unseen = Some((offset, channels.clone()));
+                // Without message indexes the chunk may still have messages, and without a checksum any others.
+                let channels = (summary.is_checked && !channels.is_empty()).then(|| channels.into());
                 self.blocks.push(Block { start_ns, end_ns, channels, place: Place::Chunk(chunk) });
             }
-            _ => self.read_chunk(chunk),
+            _ => self.read_chunk(chunk, start_ns..=end_ns),
         }
         Ok(end)
     }
 
-    /// Counts what is in a chunk of which no summary tells.
-    fn read_chunk(&mut self, chunk: Chunk) {
-        let bytes = match chunk::bytes_of(self.file, &chunk) {
-            Ok(bytes) => bytes,
-            Err(error) => return self.note(error),
-        };
-        let mut bounds: Option<(u64, u64)> = None;
-        let mut channels = BTreeSet::new();
-        // What is broken in it is told when it is read.
-        for record in records_in(&bytes).map_while(Result::ok) {
-            match record.opcode {
-                op::SCHEMA | op::CHANNEL => {
-                    match self.file.parse(record.opcode, record.content, chunk.records.start) {
-                        Ok(definition) => self.definitions.add(definition),
-                        Err(error) => self.note(error),
-                    }
+    /// Takes the message index of a channel, which stands behind its chunk.
+    fn take_message_index(&mut self, channel: Option<u16>) {
+        if let Some((chunk, unseen)) = &mut self.unseen {
+            let place = unseen.iter().position(|id| Some(*id) == channel.map(u32::from));
+            match place {
+                Some(place) => {
+                    unseen.swap_remove(place);
                 }
-                op::MESSAGE => {
-                    if let Some((head, _)) = MessageHead::split(record.content) {
-                        let time = head.log_time_ns;
-                        let (start, end) = bounds.unwrap_or((time, time));
-                        bounds = Some((start.min(time), end.max(time)));
-                        channels.insert(u32::from(head.channel));
-                        *self.counts.entry(head.channel).or_default() += 1;
-                    }
-                }
-                _ => {}
+                None => self.lie = self.lie.or(Some(*chunk)),
             }
         }
-        // A chunk of definitions alone has nothing to load, unless it is broken.
-        let (start_ns, end_ns) = match bounds {
-            Some(bounds) => bounds,
-            None if records_in(&bytes).all(|record| record.is_ok()) => return,
-            None => (0, 0),
+    }
+
+    /// No message index of the last chunk comes any more.
+    fn end_of_indexes(&mut self) {
+        if let Some((chunk, unseen)) = self.unseen.take()
+            && !unseen.is_empty()
+        {
+            self.lie = self.lie.or(Some(chunk));
+        }
+    }
+
+    /// Counts what is in a chunk of which no summary tells. What is broken in it is told when it is read.
+    fn read_chunk(&mut self, chunk: Chunk, times_ns: RangeInclusive<u64>) {
+        let Inside { bytes, fault } = match chunk::inside(self.file, &chunk) {
+            Ok(inside) => inside,
+            Err(error) => return self.note(error),
         };
-        let channels = bounds.map(|_| channels.into_iter().collect());
+        let mut messages: Vec<(u64, u16)> = Vec::new();
+        let mut lost = Strange::default();
+        let mut unread = Strange::default();
+        let mut what_is_unread = None;
+        let mut pieces = Pieces::new(&bytes, chunk::stored(&chunk));
+        while let Some(piece) = pieces.next(|channel| self.channels.contains(channel)) {
+            match piece {
+                Piece::Record(record) if record.opcode == op::MESSAGE => {
+                    if let Some((head, _)) = MessageHead::split(record.content) {
+                        messages.push((head.log_time_ns, head.channel));
+                    }
+                }
+                Piece::Record(record) if matches!(record.opcode, op::SCHEMA | op::CHANNEL) => {
+                    match Definition::parse(record.opcode, record.content) {
+                        Ok(definition) => {
+                            self.channels.insert_described(&definition);
+                            let is_sure = fault.is_none();
+                            if is_sure { &mut self.definitions } else { &mut self.doubtful }.add(definition);
+                        }
+                        Err(reason) => {
+                            unread.add(record.offset, 1);
+                            what_is_unread.get_or_insert((record.opcode, reason));
+                        }
+                    }
+                }
+                Piece::Record(_) => {}
+                Piece::Lost(range) => lost.add(range.start, range.len() as u64),
+            }
+        }
+        let begin = chunk.records.start;
+        if let Some((opcode, reason)) = what_is_unread {
+            let count = unread.count;
+            self.note_at(begin, || {
+                format!("{count} definitions that cannot be read; the first: {}", of_kind(opcode, reason))
+            });
+        }
+        if fault.is_some() {
+            chunk::leave_out_wrong_times(&mut messages, &times_ns, |(time, _)| *time);
+        }
+        let times = || messages.iter().map(|(time, _)| *time);
+        let (Some(start_ns), Some(end_ns)) = (times().min(), times().max()) else {
+            // Nothing to load.
+            fault.into_iter().for_each(|fault| self.note(fault));
+            if lost.count > 0 {
+                self.note_at(begin, || chunk::lost_inside(lost.count, !chunk.compression.is_empty()));
+            }
+            return;
+        };
+        let mut channels = BTreeSet::new();
+        for (_, channel) in &messages {
+            self.channels.insert(*channel);
+            channels.insert(u32::from(*channel));
+            *self.counts.entry(*channel).or_default() += 1;
+        }
+        let channels = Some(channels.into_iter().collect());
         self.blocks.push(Block { start_ns, end_ns, channels, place: Place::Chunk(chunk) });
     }
 
     fn take_message(&mut self, offset: u64, end: u64, head: MessageHead) {
         if end - offset > MAX_BLOCK_BYTES {
-            let reason = format!("a message of {} bytes; accepted: {MAX_BLOCK_BYTES}", end - offset);
-            return self.note(self.damaged(offset, reason));
+            return self.note_at(offset, || {
+                format!("a message of {} bytes; accepted: {MAX_BLOCK_BYTES}", end - offset)
+            });
         }
         self.loose_messages += 1;
+        self.channels.insert(head.channel);
         *self.counts.entry(head.channel).or_default() += 1;
         let time = head.log_time_ns;
         let channel = u32::from(head.channel);
@@ -310,23 +397,11 @@ impl<'a> Walk<'a> {
         self.blocks.push(Block { start_ns: time, end_ns: time, channels: Some([channel].into()), place });
     }
 
-    /// The channels known so far.
-    fn channels(&self) -> BTreeSet<u16> {
-        let indexed = self.summary.map(|summary| &summary.definitions.channels);
-        let seen = self.counts.keys();
-        self.definitions
-            .channels
-            .keys()
-            .chain(indexed.into_iter().flat_map(BTreeMap::keys))
-            .chain(seen)
-            .copied()
-            .collect()
-    }
-
     /// Whether the summary can stand for the file: everything in it is there, and nothing is broken.
     fn agrees_with(&self, summary: &Summary) -> bool {
         let all_messages_are_loose = summary.statistics.chunk_count == 0;
         self.damage.is_empty()
+            && self.lie.is_none()
             && self.chunks == u64::from(summary.statistics.chunk_count)
             && (!all_messages_are_loose || self.loose_messages == summary.statistics.message_count)
     }
@@ -336,13 +411,23 @@ impl<'a> Walk<'a> {
         let found: u64 = self.counts.values().sum();
         let announced = summary.statistics.message_count;
         if self.damage.is_empty() && found != announced {
-            let reason = format!("the summary counts {announced} messages, and there are {found}");
-            self.note(self.damaged(self.file.len(), reason));
+            self.note_at(self.file.len(), || {
+                format!("the summary counts {announced} messages, and there are {found}")
+            });
         }
     }
 
     fn damaged(&self, offset: u64, reason: impl Into<String>) -> Error {
         Error::damaged(self.file.path(), offset, reason)
+    }
+
+    /// As [`Walk::note`]. A file can have a million broken places, so nothing is made of those that are not told.
+    fn note_at(&mut self, offset: u64, reason: impl FnOnce() -> String) {
+        if self.damage.len() < TOLD {
+            self.damage.push(self.damaged(offset, reason()));
+        } else {
+            self.untold += 1;
+        }
     }
 
     fn note(&mut self, error: Error) {
@@ -354,51 +439,20 @@ impl<'a> Walk<'a> {
     }
 
     fn finish(mut self) -> FileIndex {
+        let end = self.file.len();
         if self.untold > 0 {
-            let more =
-                self.damaged(self.file.len(), format!("{} more broken places in the file", self.untold));
+            let more = self.damaged(end, format!("{} more broken places in the file", self.untold));
             self.damage.push(more);
         }
-        let Definitions { schemas, channels } = &self.definitions;
-        let mut left = DEFINITIONS_BYTES;
-        let mut too_long = 0_u64;
-        let topics = channels.iter().map(|(id, channel)| {
-            let schema = schemas.get(&channel.schema_id);
-            let text_of = |key: &str| channel.metadata.get(key).map_or("", String::as_str);
-            let text = schema.map_or("", |schema| &schema.text);
-            let fits = left.checked_sub(text.len());
-            left = fits.unwrap_or(left);
-            too_long += u64::from(fits.is_none());
-            let qos_text = text_of("offered_qos_profiles");
-            let topic = Topic {
-                name: channel.topic.clone(),
-                type_name: schema.map(|schema| schema.name.clone()).unwrap_or_default(),
-                serialization_format: channel.message_encoding.clone(),
-                // A QoS nobody can read is one that is not known.
-                offered_qos: match qos_text.len() <= QOS_BYTES {
-                    true => qos::from_yaml(qos_text).unwrap_or_default(),
-                    false => Vec::new(),
-                },
-                definition: MessageDefinition {
-                    encoding: schema.map(|schema| schema.encoding.clone()).unwrap_or_default(),
-                    text: fits.map(|_| text.to_owned()).unwrap_or_default(),
-                    type_hash: text_of("topic_type_hash").to_owned(),
-                },
-            };
-            let message_count = self.counts.get(id).copied().unwrap_or(0);
-            (u32::from(*id), RecordedTopic { topic, message_count })
-        });
-        let topics = topics.collect();
-        if too_long > 0 {
-            let reason = format!(
-                "definitions of more than {DEFINITIONS_BYTES} bytes altogether; those of {too_long} topics are left out"
-            );
-            self.damage.push(Error::damaged(self.file.path(), self.file.len(), reason));
-        }
+        self.definitions.complete_from(&self.doubtful);
+        let (topics, left_out) = self.definitions.topics(&self.counts);
+        let left_out = left_out.map(|reason| self.damaged(end, reason));
+        self.damage.extend(left_out);
         FileIndex { topics, blocks: self.blocks, damage: self.damage }
     }
 }
 
-fn is_empty(chunk: &Chunk) -> bool {
-    chunk.records.is_empty()
+/// What is wrong with a record of a kind.
+fn of_kind(opcode: u8, reason: &str) -> String {
+    format!("record of kind {opcode:#04x}: {reason}")
 }

@@ -14,6 +14,7 @@ mod chunk;
 mod compare;
 mod compression;
 mod definitions;
+mod described;
 mod digest;
 mod directory;
 mod error;
@@ -26,6 +27,7 @@ mod order;
 mod playback;
 mod qos;
 mod reader;
+mod records;
 pub mod repair;
 #[cfg(feature = "sqlite")]
 mod sqlite;

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+use tempfile::TempPath;
 
 use crate::block::{Block, FileIndex, Loaded};
 use crate::chunk;
@@ -29,7 +29,7 @@ pub(crate) struct RecordedFile {
     path: PathBuf,
     storage: Storage,
     /// The decompressed content, removed with this value.
-    _decompressed: Option<NamedTempFile>,
+    _decompressed: Option<TempPath>,
 }
 
 enum Storage {
@@ -45,7 +45,13 @@ enum Storage {
 impl RecordedFile {
     /// Opens a file and finds what is in it.
     pub(crate) fn open(path: &Path) -> Result<(Self, FileIndex), Error> {
-        let stored = std::fs::metadata(path).map_err(Error::io(path, "open"))?.len();
+        let metadata = std::fs::metadata(path).map_err(Error::io(path, "open"))?;
+        // Opening a pipe waits for whoever writes into it, and a device never ends.
+        if !metadata.is_file() {
+            let reason = "it is no regular file".to_owned();
+            return Err(Error::NotARecording { path: path.to_owned(), reason });
+        }
+        let stored = metadata.len();
         let (decompressed, damage) = match path.extension() {
             Some(extension) if extension == COMPRESSED => {
                 let (file, damage) = compression::whole_file(path)?;
@@ -53,7 +59,7 @@ impl RecordedFile {
             }
             _ => (None, None),
         };
-        let readable = decompressed.as_ref().map_or(path, NamedTempFile::path);
+        let readable = decompressed.as_deref().unwrap_or(path);
         let name = if decompressed.is_some() { path.with_extension("") } else { path.to_owned() };
         let is_database = name.extension().is_some_and(|extension| extension == SQLITE)
             || begins_with(readable, SQLITE_MAGIC).map_err(Error::io(path, "open"))?;
@@ -67,10 +73,6 @@ impl RecordedFile {
         };
         index.damage.extend(damage);
         Ok((Self { path: path.to_owned(), storage, _decompressed: decompressed }, index))
-    }
-
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
     }
 
     /// Loads a block of this file.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use mcap::records::{self, Record, op};
 
 use crate::block::MAX_BLOCK_BYTES;
+use crate::described::{Definition, Definitions};
 use crate::error::Error;
 use crate::file::{HEAD, McapFile, records as records_in};
 
@@ -14,21 +15,6 @@ const FOOTER: u64 = 20;
 const FOOTER_AND_MAGIC: u64 = HEAD + FOOTER + mcap::MAGIC.len() as u64;
 /// The footer up to its own checksum, which covers that.
 const CHECKED: u64 = HEAD + FOOTER - 4;
-
-/// The text of a type as the file has it.
-#[derive(Debug, Clone)]
-pub(crate) struct Schema {
-    pub(crate) name: String,
-    pub(crate) encoding: String,
-    pub(crate) text: String,
-}
-
-/// Types and channels by their numbers.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Definitions {
-    pub(crate) schemas: BTreeMap<u16, Schema>,
-    pub(crate) channels: BTreeMap<u16, records::Channel>,
-}
 
 /// A summary that is whole.
 #[derive(Debug)]
@@ -48,33 +34,6 @@ pub(crate) enum Ending {
     Without,
     /// There is one, and it is broken.
     Broken(Error),
-}
-
-impl Definitions {
-    /// Takes a definition. The first one of a number counts: others are the same or damaged.
-    pub(crate) fn add(&mut self, record: Record<'_>) {
-        match record {
-            Record::Schema { header, data } => {
-                let text = String::from_utf8_lossy(&data).into_owned();
-                let schema = Schema { name: header.name, encoding: header.encoding, text };
-                self.schemas.entry(header.id).or_insert(schema);
-            }
-            Record::Channel(channel) => {
-                self.channels.entry(channel.id).or_insert(channel);
-            }
-            _ => {}
-        }
-    }
-
-    /// Takes what is missing here from others.
-    pub(crate) fn complete_from(&mut self, others: &Self) {
-        for (id, schema) in &others.schemas {
-            self.schemas.entry(*id).or_insert_with(|| schema.clone());
-        }
-        for (id, channel) in &others.channels {
-            self.channels.entry(*id).or_insert_with(|| channel.clone());
-        }
-    }
 }
 
 /// Reads the summary of `file`.
@@ -128,21 +87,25 @@ fn summary(file: &McapFile) -> Result<Option<Summary>, Error> {
             broken(footer.summary_start + at as u64, "a record of the summary is longer than the summary")
         })?;
         let offset = footer.summary_start + record.offset as u64;
-        if matches!(record.opcode, op::SCHEMA | op::CHANNEL | op::STATISTICS | op::CHUNK_INDEX) {
-            match file.parse(record.opcode, record.content, offset)? {
+        match record.opcode {
+            op::SCHEMA | op::CHANNEL => {
+                let definition = Definition::parse(record.opcode, record.content);
+                definitions.add(definition.map_err(|reason| broken(offset, reason))?);
+            }
+            op::STATISTICS | op::CHUNK_INDEX => match file.parse(record.opcode, record.content, offset)? {
                 Record::Statistics(found) => statistics = Some(found),
                 Record::ChunkIndex(chunk) => {
                     chunks.insert(chunk.chunk_start_offset, chunk);
                 }
-                definition => definitions.add(definition),
-            }
+                _ => {}
+            },
+            _ => {}
         }
     }
     // Writers may leave each of these out; then the summary is not of much use.
     let Some(statistics) = statistics else { return Ok(None) };
-    let is_complete = statistics.channel_count as usize == definitions.channels.len()
-        && usize::from(statistics.schema_count) == definitions.schemas.len()
-        && statistics.chunk_count as usize == chunks.len();
+    let counted = (usize::from(statistics.schema_count), statistics.channel_count as usize);
+    let is_complete = definitions.counts() == counted && statistics.chunk_count as usize == chunks.len();
     if !is_complete {
         return Ok(None);
     }

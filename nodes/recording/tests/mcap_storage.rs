@@ -8,13 +8,22 @@ use common::*;
 use mcap::records::op;
 use proptest::prelude::*;
 use recording::Recording;
+use recording::cdr::encode;
 
-/// What is read of a file: numbers of the poses, sentences of the damage on opening, and of the errors on the way.
+/// What is read of a file: numbers of the poses that are as they were written, sentences of the damage on opening, and of
+/// the errors on the way. Messages that are not as they were written never come without a word.
 fn contents(bytes: &[u8]) -> (Vec<u64>, Vec<String>, Vec<String>) {
     let recording = opened(bytes).unwrap();
     let (messages, errors) = read(&recording);
-    let damage = recording.damage().iter().map(ToString::to_string).collect();
-    (numbers(&messages), damage, errors.iter().map(ToString::to_string).collect())
+    let damage: Vec<_> = recording.damage().iter().map(ToString::to_string).collect();
+    let errors: Vec<_> = errors.iter().map(ToString::to_string).collect();
+    let as_written = |message: &&recording::Message| {
+        let number = message.log_time_ns.saturating_sub(START_NS) / STEP_NS;
+        number < 10_000 && log_time_ns(number) == message.log_time_ns && message.data == encode(&pose(number))
+    };
+    let whole: Vec<_> = messages.iter().filter(as_written).cloned().collect();
+    assert!(whole.len() == messages.len() || !(damage.is_empty() && errors.is_empty()));
+    (numbers(&whole), damage, errors)
 }
 
 fn counted(recording: &Recording) -> u64 {
@@ -39,35 +48,89 @@ fn every_compression_with_and_without_chunks_and_summary_reads_the_same() {
 }
 
 #[test]
-fn flipped_bits_inside_a_chunk_cost_that_chunk_alone_and_are_told_once() {
+fn flipped_bits_inside_a_chunk_cost_one_message_or_what_no_longer_decompresses_and_are_told_once() {
     for shape in [PLAIN, ZSTD, LZ4] {
         for summary in [true, false] {
             let mut bytes = file(Shape { summary, ..shape }, 0..1000, 100);
             let chunk = chunks(&bytes)[3].clone();
             bytes[(chunk.start + chunk.end) / 2] ^= 0x55;
             let (found, damage, errors) = contents(&bytes);
-            assert_eq!(found, (0..300).chain(400..1000).collect::<Vec<_>>(), "{shape:?}");
-            let told: Vec<_> = damage.iter().chain(&errors).collect();
-            assert_eq!(told.len(), 1, "{told:?}");
-            assert!(told[0].contains("at byte") && told[0].contains("chunk"), "{told:?}");
+            let others: Vec<_> = found.iter().copied().filter(|number| !(300..400).contains(number)).collect();
+            assert_eq!(others, (0..300).chain(400..1000).collect::<Vec<_>>(), "{shape:?}");
+            if shape.compression.is_none() {
+                assert_eq!(found.len(), 999);
+            }
+            let told: Vec<_> = damage.iter().chain(&errors).filter(|told| told.contains("chunk of")).collect();
+            assert_eq!(told.len(), 1, "{damage:?} {errors:?}");
+            assert!(told[0].contains("at byte"), "{told:?}");
             if !summary {
-                assert_eq!(counted(&opened(&bytes).unwrap()), 900, "counted is what can be read");
+                let recording = opened(&bytes).unwrap();
+                let readable = read(&recording).0.len() as u64;
+                assert_eq!(counted(&recording), readable, "counted is what can be read");
             }
         }
     }
 }
 
 #[test]
-fn a_record_broken_inside_a_chunk_without_checksum_costs_what_is_behind_it_in_the_chunk() {
+fn any_bit_of_a_message_in_a_plain_chunk_costs_that_message_at_most() {
+    for checksums in [true, false] {
+        let whole = file(Shape { checksums, ..PLAIN }, 0..60, 20);
+        let needle = encode(&pose(30));
+        let data = whole.windows(needle.len()).position(|window| window == needle).unwrap();
+        for bit in 0..(31 + 16) * 8 {
+            let mut bytes = whole.clone();
+            bytes[data - 31 + bit / 8] ^= 1 << (bit % 8);
+            let recording = opened(&bytes).unwrap();
+            let (messages, errors) = read(&recording);
+            let sequences: Vec<_> = messages.iter().map(|message| message.sequence).collect();
+            for number in (0..60).filter(|number| *number != 30) {
+                assert!(sequences.contains(&number), "{number} is lost with bit {bit}");
+            }
+            assert!(messages.len() <= 60);
+            assert!(!checksums || errors.iter().any(|error| error.to_string().contains("checksum")), "bit {bit}");
+        }
+    }
+}
+
+#[test]
+fn a_hole_of_zeros_in_a_plain_chunk_costs_the_messages_it_is_in() {
+    for (shape, told) in [(PLAIN, "checksum"), (Shape { checksums: false, ..PLAIN }, "broken records")] {
+        let mut bytes = file(shape, 0..1000, 500);
+        let chunk = chunks(&bytes)[1].clone();
+        let size = (chunk.end - chunk.start) / 500;
+        let begin = chunk.start + 100 * size;
+        bytes[begin..begin + 50 * size].fill(0);
+        let (found, damage, errors) = contents(&bytes);
+        assert!(found.len() >= 1000 - 52, "{}", found.len());
+        assert!(damage.iter().chain(&errors).any(|sentence| sentence.contains(told)), "{damage:?} {errors:?}");
+    }
+}
+
+#[test]
+fn of_a_compressed_chunk_that_is_cut_what_decompresses_is_read() {
+    for shape in [ZSTD, LZ4] {
+        // 5000 poses are six blocks of a zstd frame.
+        let bytes = file(shape, 0..5000, 5000);
+        let chunk = chunks(&bytes)[0].clone();
+        let (found, damage, _) = contents(&bytes[..chunk.end - 50]);
+        assert!(found.len() > 3000 && found.len() < 5000, "{shape:?}: {}", found.len());
+        assert_eq!(found, (0..found.len() as u64).collect::<Vec<_>>(), "{shape:?}");
+        assert!(damage.iter().any(|told| told.contains("broken record")), "{damage:?}");
+    }
+}
+
+#[test]
+fn a_record_broken_inside_a_chunk_without_checksum_costs_that_record() {
     let mut bytes = file(Shape { checksums: false, ..PLAIN }, 0..300, 100);
     let needle = recording::cdr::encode(&pose(140));
     let data = bytes.windows(needle.len()).position(|window| window == needle).unwrap();
     // The length of the record of message 140 becomes 2^63.
     bytes[data - 22 - 1] = 0x80;
     let (found, damage, errors) = contents(&bytes);
-    assert_eq!(found, (0..140).chain(200..300).collect::<Vec<_>>());
+    assert_eq!(found, (0..140).chain(141..300).collect::<Vec<_>>());
     assert_eq!((damage.len(), errors.len()), (0, 1));
-    assert!(errors[0].contains("longer than the chunk"), "{errors:?}");
+    assert!(errors[0].contains("broken records"), "{errors:?}");
 }
 
 /// Places of the fields in the head of a chunk's record.
@@ -189,25 +252,168 @@ fn more_bombs_than_a_file_of_its_size_may_hold_are_left_out_without_being_decomp
     assert!(told.count() >= 20);
 }
 
+/// A chunk with these records inside, without a checksum.
+fn chunk_of_records(compression: &str, inside: &[u8]) -> Vec<u8> {
+    let stored = match compression {
+        "" => inside.to_vec(),
+        _ => zstd::bulk::compress(inside, 1).unwrap(),
+    };
+    let mut record = vec![op::CHUNK];
+    record.extend((40 + compression.len() as u64 + stored.len() as u64).to_le_bytes());
+    record.extend([0; 16]);
+    record.extend((inside.len() as u64).to_le_bytes());
+    record.extend([0; 4]);
+    record.extend((compression.len() as u32).to_le_bytes());
+    record.extend(compression.as_bytes());
+    record.extend((stored.len() as u64).to_le_bytes());
+    record.extend(&stored);
+    record
+}
+
+fn record(kind: u8, content: &[u8]) -> Vec<u8> {
+    [&[kind][..], &(content.len() as u64).to_le_bytes(), content].concat()
+}
+
 #[test]
 fn millions_of_strange_records_in_a_chunk_are_one_sentence() {
-    let mut bytes = file(Shape { checksums: false, ..ZSTD }, 0..10, 10);
-    let chunk = chunks(&bytes)[0].clone();
-    let inside = zstd::bulk::compress(&vec![0; 9 << 20], 1).unwrap();
-    let mut record = vec![op::CHUNK];
-    record.extend((44 + inside.len() as u64).to_le_bytes());
-    record.extend([0; 16]);
-    record.extend((9_u64 << 20).to_le_bytes());
-    record.extend([0, 0, 0, 0, 4, 0, 0, 0]);
-    record.extend(b"zstd");
-    record.extend((inside.len() as u64).to_le_bytes());
-    record.extend(&inside);
-    // A chunk without messages is not kept, so this one has to begin with one.
-    bytes.splice(chunk.end..chunk.end, record);
+    let whole = file(Shape { checksums: false, ..PLAIN }, 0..10, 10);
+    let chunk = chunks(&whole)[0].clone();
+    let loose = file(LOOSE, 0..10, 10);
+    let pose = records(&loose).into_iter().find(|(kind, _)| *kind == op::MESSAGE).unwrap().1;
+    let pose = &loose[pose];
+    // Between poses: a message shorter than its head, a kind there is none of, a definition without its fields.
+    let strange = [record(op::MESSAGE, &[0; 21]), record(0x70, &[1; 4]), record(op::SCHEMA, &[])].concat();
+    let inside = [pose, &strange, pose, pose, pose].concat().repeat(50_000);
+    let told_of = |compression: &str| {
+        let mut bytes = whole.clone();
+        bytes.splice(chunk.end..chunk.end, chunk_of_records(compression, &inside));
+        let recording = opened(&bytes).unwrap();
+        let (messages, errors) = read(&recording);
+        let told: Vec<_> = recording.damage().iter().chain(&errors).map(ToString::to_string).collect();
+        (messages.len(), told)
+    };
+    let (count, told) = told_of("");
+    assert_eq!(count, 10 + 4 * 50_000, "{told:?}");
+    assert!(told.iter().filter(|told| told.contains("broken records")).count() == 1, "{told:?}");
+    assert!(told.len() <= 4, "{told:?}");
+    let (count, told) = told_of("zstd");
+    assert!(count > 10 && told.len() <= 4, "{count}: {told:?}");
+}
+
+#[test]
+fn definitions_in_a_compressed_chunk_take_bounded_memory_and_are_told_in_one_sentence() {
+    let whole = file(Shape { checksums: false, ..PLAIN }, 0..10, 10);
+    let chunk = chunks(&whole)[0].clone();
+    let text = |text: &[u8]| [&(text.len() as u32).to_le_bytes(), text].concat();
+    let long = vec![b'#'; 3 << 20];
+    let schemas: Vec<u8> = (100_u16..300)
+        .flat_map(|id| {
+            let content =
+                [&id.to_le_bytes()[..], &text(TYPE.as_bytes()), &text(b"ros2msg"), &text(&long)].concat();
+            chunk_of_records("zstd", &record(op::SCHEMA, &content))
+        })
+        .collect();
+    let unreadable = chunk_of_records("zstd", &record(op::SCHEMA, &[0xff; 14]).repeat(1_000_000));
+    let mut bytes = whole.clone();
+    bytes.splice(chunk.end..chunk.end, [schemas, unreadable].concat());
+    let before = resident_kb();
     let recording = opened(&bytes).unwrap();
-    let (messages, errors) = read(&recording);
-    assert_eq!(messages.len(), 10);
-    assert!(recording.damage().len() + errors.len() <= 3, "{:?} {errors:?}", recording.damage());
+    assert!(resident_kb() < before + 150_000, "{before} kB before, {} kB with it", resident_kb());
+    assert_eq!(read(&recording).0.len(), 10);
+    let told: Vec<_> = recording.damage().iter().map(ToString::to_string).collect();
+    assert!(told.iter().any(|told| told.contains("1000000 definitions that cannot be read")), "{told:?}");
+    assert!(told.iter().any(|told| told.contains("definitions of more than")), "{told:?}");
+    assert!(told.len() <= 4, "{told:?}");
+}
+
+/// What this process has in memory, kB.
+fn resident_kb() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap();
+    let line = status.lines().find(|line| line.starts_with("VmRSS")).unwrap();
+    line.split_whitespace().nth(1).unwrap().parse().unwrap()
+}
+
+/// Writes the checksum of the summary anew, or none.
+fn seal(bytes: &mut [u8], with_checksum: bool) {
+    let footer = bytes.len() - 8 - 20;
+    let summary = u64::from_le_bytes(bytes[footer..footer + 8].try_into().unwrap()) as usize;
+    let checksum = if with_checksum { crc32fast::hash(&bytes[summary..footer + 16]) } else { 0 };
+    bytes[footer + 16..footer + 20].copy_from_slice(&checksum.to_le_bytes());
+}
+
+#[test]
+fn an_index_that_lists_other_channels_hides_no_message_of_a_topic_and_is_said() {
+    let whole = file(PLAIN, 0..500, 100);
+    let of_kind = |kind: u8| records(&whole).into_iter().filter(move |found| found.0 == kind);
+    for with_checksum in [true, false] {
+        let mut bytes = whole.clone();
+        // The first channel of the second chunk's index: behind start, end, place and length of the chunk.
+        let index = of_kind(op::CHUNK_INDEX).nth(1).unwrap().1.start;
+        bytes[index + 9 + 32 + 4] ^= 2;
+        seal(&mut bytes, with_checksum);
+        let recording = opened(&bytes).unwrap();
+        let poses = recording.messages_of(&[0]).map(Result::unwrap).collect::<Vec<_>>();
+        assert_eq!(numbers(&poses), (0..500).collect::<Vec<_>>());
+        let told: Vec<_> = recording.damage().iter().map(ToString::to_string).collect();
+        assert!(told.iter().any(|told| told.contains("lists other channels")), "{told:?}");
+    }
+    // Both indexes say the same, and the messages something else.
+    let mut bytes = whole.clone();
+    for (kind, at) in [(op::CHUNK_INDEX, 9 + 32 + 4), (op::MESSAGE_INDEX, 9)] {
+        of_kind(kind).for_each(|(_, place)| bytes[place.start + at] ^= 2);
+    }
+    seal(&mut bytes, true);
+    let recording = opened(&bytes).unwrap();
+    let (mut count, mut told) = (0, Vec::new());
+    for message in recording.stored_messages() {
+        match message {
+            Ok(_) => count += 1,
+            Err(error) => told.push(error.to_string()),
+        }
+    }
+    assert_eq!((count, told.len()), (500, 5), "{told:?}");
+    assert!(told.iter().all(|told| told.contains("does not list for this chunk")), "{told:?}");
+}
+
+#[test]
+fn large_chunks_that_overlap_in_time_are_merged_without_a_loss_in_little_memory() {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut writer =
+        mcap::WriteOptions::new().compression(None).chunk_size(None).create(&mut bytes).unwrap();
+    let poses = writer.add_channel(0, "/pose", "cdr", &Default::default()).unwrap();
+    let images = writer.add_channel(0, "/image", "cdr", &Default::default()).unwrap();
+    for chunk in 0..3 {
+        for number in (chunk..900).step_by(3) {
+            let mut put = |channel_id, data: &[u8]| {
+                let time = log_time_ns(number);
+                let header =
+                    mcap::records::MessageHeader { channel_id, sequence: 0, log_time: time, publish_time: time };
+                writer.write_to_known_channel(&header, data).unwrap();
+            };
+            put(poses, &encode(&pose(number)));
+            put(images, &vec![number as u8; 80_000]);
+        }
+        writer.flush().unwrap();
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    let recording = opened(bytes.get_ref()).unwrap();
+    let place = |name: &str| recording.topics().iter().position(|found| found.topic.name == name).unwrap();
+    let alone = recording.messages_of(&[place("/pose")]).map(Result::unwrap).collect::<Vec<_>>();
+    assert_eq!(numbers(&alone), (0..900).collect::<Vec<_>>());
+    let (image, mut all) = (place("/image"), recording.messages());
+    let mut seen = Vec::new();
+    while let Some(message) = all.next_ref() {
+        let message = message.unwrap();
+        let number = (message.log_time_ns - START_NS) / STEP_NS;
+        let is_right = match message.topic == image {
+            true => message.data == vec![number as u8; 80_000],
+            false => message.data == encode(&pose(number)),
+        };
+        assert!(is_right, "{number}");
+        seen.push((number, message.topic == image));
+    }
+    assert_eq!(seen, (0..900).flat_map(|number| [(number, false), (number, true)]).collect::<Vec<_>>());
 }
 
 #[test]

@@ -71,24 +71,46 @@ fn flips(bytes: &[u8]) -> Vec<Case> {
     let index = first(bytes, op::CHUNK_INDEX);
     let statistics = first(bytes, op::STATISTICS);
     let footer = first(bytes, op::FOOTER);
+    // Zeros over a tenth of a chunk, as a power cut leaves them.
+    let mut hole = bytes.to_vec();
+    let size = chunk.end - chunk.begin;
+    hole[chunk.begin + size / 2..chunk.begin + size / 2 + size / 10].fill(0);
+    // A channel in the index of one chunk becomes another, and the summary has no checksum that would tell.
+    let mut other_channel = bytes.to_vec();
+    other_channel[index.begin + HEAD + 32 + 4] ^= 4;
+    other_channel[footer.begin + HEAD + 16..footer.begin + HEAD + 20].fill(0);
     vec![
+        Case::file("hole_in_chunk.mcap", Damaged, &["checksum", "broken records"], whole::MESSAGES - 150, hole),
+        Case::file(
+            "flipped_channel_in_index.mcap",
+            Damaged,
+            &["lists other channels"],
+            whole::MESSAGES,
+            other_channel,
+        ),
         Case::file(
             "flipped_in_chunk.mcap",
             Damaged,
             &["checksum", "byte"],
-            2900,
+            whole::MESSAGES - 1,
             flipped(chunk.begin + 9000),
         ),
         Case::file(
             "flipped_in_unchecked_chunk.mcap",
             Damaged,
-            &["byte"],
-            2900,
+            &["broken records"],
+            whole::MESSAGES - 1,
             replaced(bytes, chunk, &unchecked),
         ),
         Case::file("flipped_in_chunk_head.mcap", Damaged, &["byte"], 2900, flipped(chunk.begin + HEAD + 20)),
         Case::file("flipped_kind_of_chunk.mcap", Damaged, &["byte"], 2900, flipped(chunk.begin)),
-        Case::file("flipped_length_of_chunk.mcap", Damaged, &["byte"], 900, flipped(chunk.begin + 3)),
+        Case::file(
+            "flipped_length_of_chunk.mcap",
+            Damaged,
+            &["wrong kind or length"],
+            whole::MESSAGES,
+            flipped(chunk.begin + 3),
+        ),
         Case::file(
             "flipped_in_index.mcap",
             Damaged,
@@ -133,7 +155,7 @@ fn lengths(bytes: &[u8]) -> Vec<Case> {
     let mut stored_size = bytes.to_vec();
     stored_size[chunk.begin + HEAD + 32..chunk.begin + HEAD + 40].copy_from_slice(&HUGE.to_le_bytes());
     vec![
-        Case::file("huge_record.mcap", Damaged, &["byte", "length"], 900, huge(chunk)),
+        Case::file("huge_record.mcap", Damaged, &["wrong kind or length"], whole::MESSAGES, huge(chunk)),
         Case::file("huge_header.mcap", Damaged, &["9223372036854775808"], 900, huge(header)),
         Case::file("huge_chunk.mcap", Damaged, &["byte"], 2900, chunk_size),
         Case::file("huge_stored_size.mcap", Damaged, &["byte"], 2900, stored_size),
