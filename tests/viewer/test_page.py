@@ -61,29 +61,29 @@ def flattened(values, prefix=""):
             yield f"{prefix}{key}", value
 
 
-def browse(file, address=""):
-    """Runs one file of the browser's tests; what it said."""
-    assert CHROMIUM, "no chromium on this machine: install it, or set RHOMBUS_CHROMIUM"
-    environment = {**os.environ, "RHOMBUS_VIEWER_URL": address, "RHOMBUS_CHROMIUM": CHROMIUM}
-    command = ["node", "--test", "--test-concurrency=1", "--test-timeout=180000", file]
-    return subprocess.Popen(
-        command, cwd=HERE, env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    )
+class Browser:
+    """One file of the browser's tests at work; what it says is in a file."""
+
+    def __init__(self, folder, file, address=""):
+        assert CHROMIUM, "no chromium on this machine: install it, or set RHOMBUS_CHROMIUM"
+        environment = {**os.environ, "RHOMBUS_VIEWER_URL": address, "RHOMBUS_CHROMIUM": CHROMIUM}
+        command = ["node", "--test", "--test-concurrency=1", f"--test-timeout={1000 * LONGEST_S}", file]
+        self.log = folder / "browser.log"
+        with self.log.open("wb") as log:
+            self.process = subprocess.Popen(command, cwd=HERE, env=environment, stdout=log, stderr=subprocess.STDOUT)
+
+    def assert_passes(self):
+        code, said = self.process.wait(LONGEST_S), self.log.read_text()
+        assert code == 0, said
+        assert int(re.search(r"# pass (\d+)", said)[1]) > 0 and "# skipped 0" in said, said
 
 
-def assert_passed(process, said):
-    assert process.returncode == 0, said
-    assert int(re.search(r"# pass (\d+)", said)[1]) > 0 and "# skipped 0" in said, said
+def test_the_page_draws_the_organ_and_is_fit_for_people(session, tmp_path):
+    Browser(tmp_path, "page.test.js", session[0]).assert_passes()
 
 
-def test_the_page_draws_the_organ_and_is_fit_for_people(session):
-    process = browse("page.test.js", session[0])
-    assert_passed(process, process.communicate(timeout=LONGEST_S)[0])
-
-
-def test_the_page_stands_a_node_that_sends_nonsense_hangs_and_dies():
-    process = browse("hostile.test.js")
-    assert_passed(process, process.communicate(timeout=LONGEST_S)[0])
+def test_the_page_stands_a_node_that_sends_nonsense_hangs_and_dies(tmp_path):
+    Browser(tmp_path, "hostile.test.js").assert_passes()
 
 
 def test_the_mouse_presses_the_organ_and_the_page_shows_what_the_model_says(session, tmp_path):
@@ -93,16 +93,10 @@ def test_the_mouse_presses_the_organ_and_the_page_shows_what_the_model_says(sess
     contacts = remote.heard(ContactState, "contact_state", peer.reliable(5000))
     forces = remote.heard(WrenchStamped, "servo_cf", peer.reliable(5000))
     (ARTEFACTS / "pressed.json").unlink(missing_ok=True)
-    process = browse("node.test.js", address)
-    log = tmp_path / "log"
-    # The topics are heard while the browser is at work; what it says must not fill a pipe meanwhile.
-    with log.open("w") as file, process.stdout as said:
-        os.set_blocking(said.fileno(), False)
-        while process.poll() is None:
-            remote.spin(0.1)
-            file.write(said.read() or "")
-        file.write(said.read() or "")
-    assert_passed(process, log.read_text())
+    browser = Browser(tmp_path, "node.test.js", address)
+    while browser.process.poll() is None:
+        remote.spin(0.1)
+    browser.assert_passes()
     remote.spin(1.0)
     shown = json.loads((ARTEFACTS / "pressed.json").read_text())
     remote.close()
