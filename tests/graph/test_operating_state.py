@@ -147,6 +147,20 @@ def test_the_emergency_stop_latches_a_fault_that_only_enable_clears_once_it_is_r
     assert driver.log().count("FAULT: emergency stop") == 1
 
 
+def test_an_emergency_stop_that_is_released_at_once_is_a_fault_every_time(start, peer):
+    start().wait_ready()
+    desk = Desk(peer)
+    publisher = peer.publisher(Bool, "emergency_stop", reliable(10))
+    for _ in range(20):
+        count = len(desk.states)
+        publisher.publish(Bool(data=True))
+        publisher.publish(Bool(data=False))
+        peer.wait_for(lambda: any(m.state == "FAULT" for m in desk.states[count:]), "a fault after a short press")
+        peer.spin(0.1)
+        assert desk.state() == "FAULT", "released is not cleared"
+        assert desk.command("enable").state == "ENABLED"
+
+
 def test_a_driver_that_shall_not_enable_at_the_start_waits_for_the_command(start, peer):
     start(values={**SERVO, "device.enable_at_start": False}).wait_ready()
     desk = Desk(peer)

@@ -154,9 +154,10 @@ impl MotorLoop {
         self.asker.ask(request)
     }
 
-    /// The emergency stop is pressed, or released. Seen by the loop in its next period, whatever else it was asked.
+    /// The emergency stop is pressed, or released. Seen by the loop in its next period, whatever else it was asked; a
+    /// press is a fault even when it is released before that.
     pub fn set_emergency_stop(&self, pressed: bool) {
-        self.shared.emergency_stop.store(pressed, Relaxed);
+        self.shared.set_emergency_stop(pressed);
     }
 
     /// Says that the owner lives. To be called more often than [`SafetySettings::ros_timeout_s`].

@@ -2,7 +2,6 @@
 //! what a request asks of the device itself.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering::Relaxed;
 
 use crate::requests::Askee;
 use crate::safety::{FaultCause, FaultLatch};
@@ -134,9 +133,10 @@ impl Operation {
     }
 
     fn watch_emergency_stop(&mut self) {
-        let pressed = self.shared.emergency_stop.load(Relaxed);
-        let was_pressed = std::mem::replace(&mut self.emergency_stop, pressed);
-        if pressed && (!was_pressed || self.operating.has_motors_on()) {
+        let (is_pressed, was_pressed) = self.shared.take_emergency_stop();
+        self.emergency_stop = is_pressed;
+        // However short: who let go again before this period, or while the device was homed or opened, meant it too.
+        if was_pressed || (is_pressed && self.operating.has_motors_on()) {
             self.raise(FaultCause::EmergencyStop);
         }
     }

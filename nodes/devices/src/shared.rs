@@ -1,6 +1,7 @@
 //! What the motor loop's thread and the thread that owns it both look at: atomics, and one short queue of requests.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
+use std::sync::atomic::Ordering::{AcqRel, Acquire, Relaxed, Release};
+use std::sync::atomic::{AtomicBool, AtomicU64};
 
 use crossbeam::atomic::AtomicCell;
 
@@ -17,15 +18,18 @@ pub struct MotorStatus {
     pub fault: Option<FaultCause>,
     /// Whether the device's position is referenced.
     pub is_homed: bool,
-    /// Whether the device is being homed, or opened again.
+    /// Whether the device is being homed, or waits for it. Not while a lost device is looked for: that is the fault
+    /// [`FaultCause::DeviceLost`].
     pub is_busy: bool,
 }
 
 /// What both threads look at. Every access is RT safe.
 pub(crate) struct Shared {
     pub(crate) stop: AtomicBool,
-    /// Pressed: a flag of its own, because a queue of requests may be full or not looked at.
-    pub(crate) emergency_stop: AtomicBool,
+    /// Pressed now: a flag of its own, because a queue of requests may be full or not looked at.
+    is_pressed: AtomicBool,
+    /// Pressed since the loop last looked, even if released again.
+    was_pressed: AtomicBool,
     pub(crate) counters: Counters,
     status: AtomicCell<MotorStatus>,
     max_force_n: AtomicU64,
@@ -37,7 +41,8 @@ impl Shared {
         const { assert!(AtomicCell::<MotorStatus>::is_lock_free(), "one word is one atomic store") };
         Shared {
             stop: AtomicBool::new(false),
-            emergency_stop: AtomicBool::new(false),
+            is_pressed: AtomicBool::new(false),
+            was_pressed: AtomicBool::new(false),
             counters: Counters::default(),
             status: AtomicCell::default(),
             max_force_n: AtomicU64::new(max_force_n.to_bits()),
@@ -51,6 +56,19 @@ impl Shared {
 
     pub(crate) fn set_status(&self, status: MotorStatus) {
         self.status.store(status);
+    }
+
+    /// The emergency stop is pressed, or released.
+    pub(crate) fn set_emergency_stop(&self, pressed: bool) {
+        // Latched first: whoever sees the release sees that there was something to release.
+        self.was_pressed.fetch_or(pressed, AcqRel);
+        self.is_pressed.store(pressed, Release);
+    }
+
+    /// Whether the emergency stop is pressed now, and whether it was at any time since the last look.
+    pub(crate) fn take_emergency_stop(&self) -> (bool, bool) {
+        let is_pressed = self.is_pressed.load(Acquire);
+        (is_pressed, self.was_pressed.swap(false, AcqRel))
     }
 
     pub(crate) fn max_force_n(&self) -> f64 {

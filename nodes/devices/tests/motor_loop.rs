@@ -317,7 +317,11 @@ fn however_the_loop_is_told_to_end_the_force_never_steps() {
         assert!(matches!(motor.request(Request::State(StateCommand::Disable)), Answer::Accepted(_)));
     };
     let emergency_stop: Command = |motor| motor.set_emergency_stop(true);
-    for command in [None, Some(disable), Some(emergency_stop)] {
+    let short_stop: Command = |motor| {
+        motor.set_emergency_stop(true);
+        motor.set_emergency_stop(false);
+    };
+    for command in [None, Some(disable), Some(emergency_stop), Some(short_stop)] {
         let (mut motor, mut drain, seen) = start(PRESSED);
         press(&mut motor, &mut drain);
         if let Some(command) = command {

@@ -140,7 +140,7 @@ fn an_emergency_stop_is_a_fault_that_enabling_cannot_clear_while_it_is_pressed()
     let mut bench = bench();
     bench.ask(Enable);
     let stop = |bench: &mut Bench, pressed| {
-        bench.shared.emergency_stop.store(pressed, Relaxed);
+        bench.shared.set_emergency_stop(pressed);
         bench.operation.serve(Some(&mut bench.motors), 0).unwrap();
     };
     stop(&mut bench, true);
@@ -151,6 +151,40 @@ fn an_emergency_stop_is_a_fault_that_enabling_cannot_clear_while_it_is_pressed()
     stop(&mut bench, false);
     assert_eq!(bench.ask(Enable), (true, Enabled));
     assert_eq!(bench.operation.fault(), None);
+}
+
+#[test]
+fn an_emergency_stop_that_is_released_before_anybody_looks_is_a_fault_all_the_same() {
+    let mut bench = bench();
+    bench.ask(Enable);
+    let pulse = |bench: &mut Bench| {
+        bench.shared.set_emergency_stop(true);
+        bench.shared.set_emergency_stop(false);
+    };
+    pulse(&mut bench);
+    bench.operation.serve(Some(&mut bench.motors), 0).unwrap();
+    assert_eq!(bench.operation.fault(), Some(FaultCause::EmergencyStop));
+    assert_eq!(bench.ask(Enable), (true, Enabled), "released, so a command clears it");
+    bench.operation.serve(Some(&mut bench.motors), 0).unwrap();
+    assert_eq!(bench.operation.state(), Enabled, "one press is one fault");
+
+    // While the device is homed nobody looks.
+    bench.ask(Home);
+    assert!(bench.operation.take_homing());
+    pulse(&mut bench);
+    let homed = bench.motors.home();
+    bench.operation.end_homing(homed);
+    bench.operation.serve(Some(&mut bench.motors), 0).unwrap();
+    assert_eq!(bench.operation.fault(), Some(FaultCause::EmergencyStop));
+
+    // While there is no device the first cause stays; disabled in the meantime, the press is one of its own.
+    bench.operation.lose_device();
+    bench.ask(Disable);
+    pulse(&mut bench);
+    bench.operation.find_device();
+    bench.operation.serve(Some(&mut bench.motors), 0).unwrap();
+    assert_eq!(bench.operation.fault(), Some(FaultCause::EmergencyStop));
+    assert_eq!(bench.ask(Enable), (true, Enabled));
 }
 
 #[test]
