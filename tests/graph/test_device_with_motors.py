@@ -77,7 +77,8 @@ def peer():
 
 
 def test_disable_takes_the_force_from_the_motors_and_then_switches_them_off(start, double, peer):
-    start(**{"device.rate": 1000.0, "safety.slew": 400.0}).wait_ready()
+    # The slowest slew limit that is safe with 12 N.
+    start(**{"device.rate": 1000.0, "safety.slew": 400.0, "device.max_force": 12.0}).wait_ready()
     handle, client = Handle(peer), Client(peer)
     peer.wait_for(lambda: handle.forces, "measured forces")
     client.engage(handle)

@@ -67,7 +67,7 @@ pub use device::{
 };
 pub use emergency::{is_motor_loop, motors_off_at_once};
 pub use error::DeviceError;
-pub use motor_loop::{MotorError, MotorLoop, MotorSettings};
+pub use motor_loop::{MotorError, MotorLoop, MotorSettings, RATES_HZ};
 pub use operating::{OperatingState, StateCommand};
 pub use realtime::{Scheduling, monotonic_ns, sleep_until};
 pub use requests::{Answer, Request};

@@ -151,7 +151,7 @@ fn settings() -> MotorSettings {
         fifo_priority: 50,
         cpu: None,
         source: ForceSource::ContactLaw,
-        safety: safety.checked(&["safety.engage_ramp".to_owned()]).unwrap(),
+        safety: safety.checked(4000.0, &["safety.engage_ramp".to_owned()]).unwrap(),
         enable_at_start: true,
         gravity_compensation: false,
     }
@@ -409,7 +409,7 @@ fn a_device_or_a_rate_that_makes_no_sense_is_refused() {
         let started = MotorLoop::start(opener(plan, &Arc::default()), settings(), samples(8).0);
         assert!(matches!(started, Err(MotorError::Limits { .. })));
     }
-    for rate_hz in [0.0, 9.9, 4001.0, f64::NAN] {
+    for rate_hz in [0.0, 199.0, 4001.0, f64::NAN] {
         let settings = MotorSettings { rate_hz, ..settings() };
         let started = MotorLoop::start(opener(Plan::default(), &Arc::default()), settings, samples(8).0);
         assert!(matches!(started, Err(MotorError::Rate { .. })));

@@ -5,7 +5,7 @@ mod safety_support;
 
 use devices::safety::{FaultCause, LimitsHit, SafetyLayer, SafetySettings};
 use devices::source::ForceOrigin;
-use devices::{DeviceLimits, DeviceState, Wrench};
+use devices::{DeviceLimits, DeviceState, RATES_HZ, Wrench};
 use glam::DVec3;
 use proptest::prelude::*;
 use safety_support::checked;
@@ -183,6 +183,68 @@ fn the_force_steps_no_further_when_a_period_is_late_and_less_when_it_is_early() 
         let done = engaged().step(Ask { after_ns, ..Ask::force(DVec3::X * 10.0) });
         assert!((done.force_n().x - step_n).abs() < 1e-9, "{done:?}");
         assert!(done.hit(LimitsHit::SLEW));
+    }
+}
+
+/// Rates over the accepted range, and the layer of a loop with each, its gate open and its ramp over.
+fn at_every_rate() -> impl Iterator<Item = (f64, Ask, Rig)> {
+    let rates_hz = [*RATES_HZ.start(), 250.0, 333.0, 500.0, 1000.0, *RATES_HZ.end()];
+    rates_hz.into_iter().map(|rate_hz| {
+        let ask = Ask { after_ns: (1e9 / rate_hz) as u64, ..Ask::default() };
+        let mut rig = Rig::at_period(without_passivity(), 1.0 / rate_hz);
+        rig.steps(ask, (2.1 * rate_hz) as usize);
+        (rate_hz, ask, rig)
+    })
+}
+
+#[test]
+fn no_command_steps_by_more_than_the_slew_limit_allows_in_two_milliseconds_at_any_rate() {
+    for (rate_hz, ask, mut rig) in at_every_rate() {
+        let most_n = 2000.0 * 2e-3f64.min(1.0 / rate_hz);
+        let mut largest_n = 0.0f64;
+        for sign in [1.0, -1.0, 1.0] {
+            for late in [1, 1, 3, 1, 40, 1, 1, 1, 1, 1] {
+                let push = Wrench {
+                    torque_n_m: DVec3::X * sign,
+                    gripper_force_n: 9.0 * sign,
+                    ..Wrench::of_force(DVec3::X * 18.0 * sign)
+                };
+                let done = rig.step(Ask { wrench: push, after_ns: ask.after_ns * late, ..ask });
+                let step = |now: f64, before: f64| (now - before).abs();
+                largest_n = largest_n.max(step(done.force_n().x, done.before.force_n.x));
+                let (now, before) = (done.applied.wrench, done.before);
+                assert!(
+                    step(now.torque_n_m.x, before.torque_n_m.x) <= most_n / 40.0,
+                    "{rate_hz} Hz: {done:?}"
+                );
+                assert!(
+                    step(now.gripper_force_n, before.gripper_force_n) <= most_n / 2.0,
+                    "{rate_hz} Hz: {done:?}"
+                );
+            }
+        }
+        assert!(largest_n <= most_n && largest_n > 0.999 * most_n, "{rate_hz} Hz: {largest_n} N");
+    }
+}
+
+#[test]
+fn the_largest_force_is_gone_within_the_decay_time_at_any_rate() {
+    let settings = SafetySettings::default();
+    for (rate_hz, ask, mut rig) in at_every_rate() {
+        // The device's 15 N stand for the default's 20 N: three quarters of the time.
+        let push = Ask {
+            wrench: Wrench { torque_n_m: DVec3::X, gripper_force_n: -9.0, ..Wrench::of_force(PUSH * 4.0) },
+            ..ask
+        };
+        assert!((rig.steps(push, 100)[99].force_n().length() - 15.0).abs() < 1e-9);
+        let periods = rig
+            .steps(Ask { permits: false, ..push }, 200)
+            .iter()
+            .take_while(|d| d.applied.wrench != Wrench::ZERO)
+            .count()
+            + 1;
+        let time_s = periods as f64 / rate_hz;
+        assert!(time_s <= 0.75 * settings.decay_s + 1.0 / rate_hz, "{rate_hz} Hz: {time_s} s");
     }
 }
 
@@ -376,7 +438,7 @@ fn the_energy_of_periods_without_a_reading_is_counted_with_the_next_one() {
 #[test]
 fn a_client_may_guide_a_hand_and_a_contact_law_may_not() {
     let guided = |settings: SafetySettings, origin| {
-        let mut rig = Rig::engaged(settings.checked(&[]).unwrap(), still(DVec3::ZERO));
+        let mut rig = Rig::engaged(settings.checked(1000.0, &[]).unwrap(), still(DVec3::ZERO));
         let pull = |i: u32| Ask {
             origin,
             state: moving(DVec3::X * (1e-5 * f64::from(i)), DVec3::X * 0.01),

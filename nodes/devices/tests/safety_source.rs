@@ -64,7 +64,7 @@ struct Bench {
 impl Bench {
     fn new(source: ForceSource) -> Bench {
         Bench {
-            source: Source::new(source, &SafetySettings::default().checked(&[]).unwrap()),
+            source: Source::new(source, &SafetySettings::default().checked(1000.0, &[]).unwrap()),
             law: None,
             servo: None,
             mode: SourceMode::Follow,

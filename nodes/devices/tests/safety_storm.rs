@@ -10,7 +10,7 @@ use devices::safety::{SafetyLayer, SafetySettings};
 use devices::source::{
     Axes, ForceOrigin, ForceSource, Inputs, LawCommand, Moment, ServoCommand, Source, SourceMode,
 };
-use devices::{DeviceLimits, DeviceState, Workspace, Wrench};
+use devices::{DeviceLimits, DeviceState, RATES_HZ, Workspace, Wrench};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use rhombus_chain::{ChainParameters, ContactLaw, Formulation, LocalLaw, Mode, Pose};
@@ -149,9 +149,9 @@ fn storm(seed: u64, ticks: usize, passivity: bool) -> Tally {
     let mut dice = Dice(seed);
     let names = if passivity { vec![] } else { vec!["safety.passivity".to_owned()] };
     let settings = SafetySettings { passivity, servo_passivity: true, ..SafetySettings::default() }
-        .checked(&names)
+        .checked(*RATES_HZ.start(), &names)
         .unwrap();
-    let rate_hz = [1000.0, 4000.0, 500.0][dice.below(3) as usize];
+    let rate_hz = [1000.0, 4000.0, 500.0, *RATES_HZ.start()][dice.below(4) as usize];
     let (period_s, period_ns) = (1.0 / rate_hz, (1e9 / rate_hz) as u64);
     let mut layer = SafetyLayer::new(&settings, &LIMITS, period_s);
     let mut source = Source::new(ForceSource::ContactLaw, &settings);
@@ -214,7 +214,7 @@ fn storm(seed: u64, ticks: usize, passivity: bool) -> Tally {
             layer.step(&wanted, &state, permitted, now_ns)
         };
         let now_is = applied.wrench;
-        let dt_s = (after_ns as f64 * 1e-9).min(period_s);
+        let dt_s = (after_ns as f64 * 1e-9).min(period_s).min(2e-3);
         let context = || format!("seed {seed}, period {tick}: {before:?} -> {applied:?}");
         assert!(now_is.is_finite(), "{}", context());
         assert!(now_is.force_n.length() <= 12.0, "{}", context());

@@ -16,7 +16,7 @@ pub(crate) fn motor_settings(scene: &Scene) -> Result<MotorSettings> {
         fifo_priority: FIFO_PRIORITY,
         cpu: device.cpu,
         source: device.force_source.parse().map_err(|text: String| anyhow!(text))?,
-        safety: safety_settings(scene)?.checked(parameters.texts("unsafe.parameters")?)?,
+        safety: safety_settings(scene)?.checked(device.rate_hz, parameters.texts("unsafe.parameters")?)?,
         enable_at_start: device.enable_at_start,
         gravity_compensation: device.gravity_compensation,
     })

@@ -121,7 +121,7 @@ mod tests {
             watchdog: None,
             status_names: &["power"],
         };
-        OperatingReport::new(&description, &safety.checked(&names).unwrap())
+        OperatingReport::new(&description, &safety.checked(1000.0, &names).unwrap())
     }
 
     fn text(report: &OperatingReport, operating: OperatingState, fault: Option<FaultCause>) -> String {

@@ -67,7 +67,7 @@ fn a_drivers_section_is_checked_like_any_other() {
     );
     assert_eq!(
         error("device.rate: 1.0"),
-        ":10: device.rate: 1.0 is not accepted; accepted: number, 10 to 4000 [Hz]"
+        ":10: device.rate: 1.0 is not accepted; accepted: number, 200 to 4000 [Hz]"
     );
 }
 

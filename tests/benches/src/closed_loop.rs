@@ -114,7 +114,7 @@ impl ClosedLoop {
             flaws: Flaws::default(),
         })?;
         device.enable()?;
-        let settings = settings(self.passivity)?;
+        let settings = settings(self.passivity, self.rate_hz)?;
         let mut layer = SafetyLayer::new(&settings, &device.description().limits, period_s);
         let mut source = Source::new(ForceSource::ContactLaw, &settings);
         let floor = LocalLaw {
@@ -205,9 +205,10 @@ impl Topics {
     }
 }
 
-fn settings(passivity: bool) -> Result<CheckedSettings> {
+fn settings(passivity: bool, rate_hz: f64) -> Result<CheckedSettings> {
     let names = if passivity { vec![] } else { vec!["safety.passivity".to_owned()] };
-    Ok(SafetySettings { passivity, servo_passivity: true, ..SafetySettings::default() }.checked(&names)?)
+    Ok(SafetySettings { passivity, servo_passivity: true, ..SafetySettings::default() }
+        .checked(rate_hz, &names)?)
 }
 
 /// Above the floor until the force is engaged, then down to the intent, and there it stays.

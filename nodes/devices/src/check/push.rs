@@ -53,7 +53,7 @@ pub(super) fn findings(
         Ok(_) => {}
         Err(error) => return vec![Finding::failure("forces", error.to_string(), "")],
     }
-    let safety = match safety(force_n) {
+    let safety = match safety(force_n, settings.rate_hz) {
         Ok(safety) => safety,
         Err(error) => return vec![Finding::failure("forces", error.to_string(), "")],
     };
@@ -92,15 +92,17 @@ fn too_slow(description: &Description, rate_hz: f64) -> Option<f64> {
 
 /// The passivity controller stays off: a push is there to do work on the hand, and it would take that back. Force, speed
 /// and way are what bounds the work here, to 15 mJ at most.
-fn safety(force_n: f64) -> Result<CheckedSettings, SafetyError> {
+fn safety(force_n: f64, rate_hz: f64) -> Result<CheckedSettings, SafetyError> {
     let settings = SafetySettings {
         max_force_n: force_n,
+        max_torque_n_m: 0.0,
+        max_gripper_force_n: 0.0,
         max_speed_m_per_s: FASTEST_M_PER_S,
         engage_ramp_s: RAMP_S,
         passivity: false,
         ..SafetySettings::default()
     };
-    settings.checked(&["safety.passivity".to_owned()])
+    settings.checked(rate_hz, &["safety.passivity".to_owned()])
 }
 
 fn push(

@@ -83,7 +83,7 @@ fn settings() -> MotorSettings {
         fifo_priority: 1,
         cpu: None,
         source: ForceSource::ContactLaw,
-        safety: SafetySettings::default().checked(&[]).unwrap(),
+        safety: SafetySettings::default().checked(1000.0, &[]).unwrap(),
         enable_at_start: false,
         gravity_compensation: true,
     }

@@ -13,6 +13,7 @@
 use glam::DVec3;
 
 use super::energy::EnergyObserver;
+use super::slew::share_of_limit;
 use super::vector::{limited, size};
 use super::{LimitsHit, SafetySettings};
 use crate::{DeviceState, Wrench};
@@ -44,13 +45,13 @@ impl PassivityController {
         PassivityController {
             on: settings.passivity,
             force: Release {
-                slew_per_s: settings.slew_n_per_s,
+                slew_per_s: settings.slew_n_per_s * share_of_limit(period_s),
                 period_s,
                 inertia: LIGHTEST_KG,
                 hand_per_s2: HAND_M_PER_S2,
             },
             torque: Release {
-                slew_per_s: settings.torque_slew_n_m_per_s,
+                slew_per_s: settings.torque_slew_n_m_per_s * share_of_limit(period_s),
                 period_s,
                 inertia: LIGHTEST_KG_M2,
                 hand_per_s2: HAND_RAD_PER_S2,

@@ -5,6 +5,7 @@ use std::ops::Deref;
 use thiserror::Error;
 
 use super::SafetySettings;
+use super::slew::share_of_limit;
 
 /// Settings that passed. The only way to them is [`SafetySettings::checked`].
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +85,22 @@ struct Range {
     safe: (f64, f64),
     why: &'static str,
     value: fn(&SafetySettings) -> f64,
+}
+
+impl Range {
+    /// The safe values in words. `falls` is the parameter that the `least` value is for.
+    fn safe_values(&self, falls: Option<&str>, least: Option<f64>, rate_hz: f64) -> String {
+        let ((low, high), unit) = (self.safe, self.unit);
+        let (Some(falls), Some(least)) = (falls, least) else {
+            return format!("{low} to {high} {unit}").trim_end().to_owned();
+        };
+        let low = low.max(least.ceil());
+        if low <= high {
+            format!("{low} to {high} {unit} with this {falls} at {rate_hz} Hz, so that it is gone in 30 ms")
+        } else {
+            format!("none with this {falls} at {rate_hz} Hz: take a smaller {falls} or a larger device.rate")
+        }
+    }
 }
 
 const NO_FASTER: &str =
@@ -223,16 +240,32 @@ const RANGES: [Range; 16] = [
     },
 ];
 
+/// Time in which the largest force must be able to fall to nothing, s: the decay that a hand is promised, 20 ms after the
+/// last command at the latest.
+const LONGEST_FALL_S: f64 = 0.03;
+
+/// What limits the slew from below: the parameter whose largest value has to go in [`LONGEST_FALL_S`], and that value.
+fn falls(settings: &SafetySettings, slew: &str) -> Option<(&'static str, f64)> {
+    match slew {
+        "safety.slew" => Some(("device.max_force", settings.max_force_n)),
+        "safety.torque_slew" => Some(("device.max_torque", settings.max_torque_n_m)),
+        "safety.gripper_slew" => Some(("device.max_gripper_force", settings.max_gripper_force_n)),
+        _ => None,
+    }
+}
+
 const PASSIVITY: &str = "safety.passivity";
 const PASSIVITY_WHY: &str = "a stiff contact that is answered late drives the hand";
 
 impl SafetySettings {
-    /// Checks every number; what is not safe passes only when its parameter is named in `unsafe_parameters`. An empty
-    /// name there is none: `[""]` is how a parameter file writes an empty list.
+    /// Checks every number, for a motor loop of `rate_hz`; what is not safe passes only when its parameter is named in
+    /// `unsafe_parameters`. An empty name there is none: `[""]` is how a parameter file writes an empty list.
+    ///
+    /// A slew limit is safe when the largest force falls to nothing within 30 ms, in a slow loop with its steps of 2 ms.
     ///
     /// # Errors
     /// The first number that makes no sense or is not safe, or a name that no parameter has.
-    pub fn checked(self, unsafe_parameters: &[String]) -> Result<CheckedSettings, SafetyError> {
+    pub fn checked(self, rate_hz: f64, unsafe_parameters: &[String]) -> Result<CheckedSettings, SafetyError> {
         let allowed = |name: &str| unsafe_parameters.iter().any(|allowed| allowed == name);
         for name in unsafe_parameters.iter().filter(|name| !name.is_empty()) {
             if !RANGES.iter().any(|range| range.name == name) && name != PASSIVITY {
@@ -250,11 +283,13 @@ impl SafetySettings {
             if !(low..=high).contains(&value) {
                 return Err(SafetyError::Senseless { name: range.name, value, low, high, unit: range.unit });
             }
-            let is_safe = (range.safe.0..=range.safe.1).contains(&value);
+            let falls = falls(&self, range.name);
+            let least = falls.map(|(_, largest)| largest / (LONGEST_FALL_S * share_of_limit(1.0 / rate_hz)));
+            let is_safe = (range.safe.0..=range.safe.1).contains(&value) && least.is_none_or(|l| value >= l);
             checked.judge(range.name, is_safe, allowed(range.name), || SafetyError::Unsafe {
                 name: range.name,
                 value: format!("{value} {}", range.unit).trim_end().to_owned(),
-                safe: format!("{} to {} {}", range.safe.0, range.safe.1, range.unit).trim_end().to_owned(),
+                safe: range.safe_values(falls.map(|(name, _)| name), least, rate_hz),
                 why: range.why,
             })?;
         }
@@ -305,10 +340,17 @@ mod tests {
         let safe = SafetySettings::default();
         vec![
             (SafetySettings { max_force_n: 41.0, ..safe }, "device.max_force"),
-            (SafetySettings { max_torque_n_m: 3.0, ..safe }, "device.max_torque"),
+            (
+                SafetySettings { max_torque_n_m: 3.0, torque_slew_n_m_per_s: 100.0, ..safe },
+                "device.max_torque",
+            ),
             (SafetySettings { max_gripper_force_n: 30.0, ..safe }, "device.max_gripper_force"),
             (SafetySettings { slew_n_per_s: 1e5, ..safe }, "safety.slew"),
             (SafetySettings { slew_n_per_s: 100.0, ..safe }, "safety.slew"),
+            // 20 N in 33 ms, 0.5 N m in 33 ms, 8 N in 32 ms: longer than the decay.
+            (SafetySettings { slew_n_per_s: 600.0, ..safe }, "safety.slew"),
+            (SafetySettings { torque_slew_n_m_per_s: 15.0, ..safe }, "safety.torque_slew"),
+            (SafetySettings { gripper_slew_n_per_s: 250.0, ..safe }, "safety.gripper_slew"),
             (SafetySettings { torque_slew_n_m_per_s: 1e3, ..safe }, "safety.torque_slew"),
             (SafetySettings { gripper_slew_n_per_s: 1e5, ..safe }, "safety.gripper_slew"),
             (SafetySettings { max_power_w: 1000.0, ..safe }, "safety.max_power"),
@@ -327,7 +369,7 @@ mod tests {
 
     #[test]
     fn the_defaults_are_safe() {
-        let checked = SafetySettings::default().checked(&names(&[""])).unwrap();
+        let checked = SafetySettings::default().checked(1000.0, &names(&[""])).unwrap();
         assert_eq!(*checked, SafetySettings::default());
         assert!(checked.unsafe_settings().is_empty() && checked.superfluous().is_empty());
     }
@@ -335,7 +377,7 @@ mod tests {
     #[test]
     fn a_setting_that_takes_protection_away_is_refused_with_the_way_to_have_it_all_the_same() {
         for (settings, name) in reckless() {
-            let message = settings.checked(&[]).unwrap_err().to_string();
+            let message = settings.checked(1000.0, &[]).unwrap_err().to_string();
             assert!(message.starts_with(&format!("{name} = ")), "{message}");
             assert!(message.contains("safe is "), "{message}");
             assert!(message.ends_with(&format!("unsafe.parameters: [{name}]")), "{message}");
@@ -345,7 +387,7 @@ mod tests {
     #[test]
     fn named_as_unsafe_it_passes_and_is_told_in_words() {
         for (settings, name) in reckless() {
-            let checked = settings.checked(&names(&["", name])).unwrap();
+            let checked = settings.checked(1000.0, &names(&["", name])).unwrap();
             assert_eq!(*checked, settings);
             let [told] = checked.unsafe_settings() else { panic!("{:?}", checked.unsafe_settings()) };
             assert!(told.starts_with(&format!("UNSAFE: {name} = ")), "{told}");
@@ -354,19 +396,38 @@ mod tests {
     }
 
     #[test]
+    fn a_slew_limit_is_safe_when_the_largest_force_is_gone_within_the_decay_time() {
+        let safe = SafetySettings::default();
+        let is_safe = |settings: SafetySettings, rate_hz| settings.checked(rate_hz, &[]).is_ok();
+        assert!(is_safe(SafetySettings { max_force_n: 12.0, slew_n_per_s: 400.0, ..safe }, 1000.0));
+        assert!(!is_safe(SafetySettings { max_force_n: 12.1, slew_n_per_s: 400.0, ..safe }, 1000.0));
+        // A slow loop comes to 2 of its 5 ms in each period: 40 N fall at 0.4 of the limit.
+        let strong = SafetySettings { max_force_n: 40.0, ..safe };
+        assert!(is_safe(strong, 1000.0) && is_safe(strong, 4000.0) && !is_safe(strong, 200.0));
+        assert!(is_safe(SafetySettings { slew_n_per_s: 3400.0, ..strong }, 200.0));
+        let message = strong.checked(200.0, &[]).unwrap_err().to_string();
+        assert!(message.contains("3334 to 4000 N/s with this device.max_force at 200 Hz"), "{message}");
+        // Where no slew limit is safe the way out is another one.
+        let strong = SafetySettings { max_torque_n_m: 2.0, torque_slew_n_m_per_s: 100.0, ..safe };
+        let message = strong.checked(200.0, &[]).unwrap_err().to_string();
+        assert!(message.contains("a smaller device.max_torque or a larger device.rate"), "{message}");
+    }
+
+    #[test]
     fn naming_one_parameter_allows_no_other() {
         for (settings, name) in reckless() {
             let other = if name == "safety.slew" { "safety.decay" } else { "safety.slew" };
-            assert!(settings.checked(&names(&[other])).unwrap_err().to_string().contains(name));
+            assert!(settings.checked(1000.0, &names(&[other])).unwrap_err().to_string().contains(name));
         }
     }
 
     #[test]
     fn a_safe_value_that_is_named_is_a_warning_and_an_unknown_name_an_error() {
-        let checked = SafetySettings::default().checked(&names(&["safety.slew"])).unwrap();
+        let checked = SafetySettings::default().checked(1000.0, &names(&["safety.slew"])).unwrap();
         assert!(checked.superfluous()[0].contains("safety.slew"));
         assert!(checked.unsafe_settings().is_empty());
-        let message = SafetySettings::default().checked(&names(&["safety.slow"])).unwrap_err().to_string();
+        let message =
+            SafetySettings::default().checked(1000.0, &names(&["safety.slow"])).unwrap_err().to_string();
         assert!(message.contains("\"safety.slow\"") && message.contains("safety.passivity"), "{message}");
     }
 
@@ -380,7 +441,7 @@ mod tests {
                 SafetySettings { servo_validity_s: value, ..SafetySettings::default() },
                 SafetySettings { max_speed_m_per_s: value, ..SafetySettings::default() },
             ] {
-                assert!(matches!(settings.checked(&all), Err(SafetyError::Senseless { .. })));
+                assert!(matches!(settings.checked(1000.0, &all), Err(SafetyError::Senseless { .. })));
             }
         }
     }

@@ -9,7 +9,7 @@ pub struct SafetySettings {
     pub max_torque_n_m: f64,
     /// The largest gripper force on the fingers, N (`device.max_gripper_force`).
     pub max_gripper_force_n: f64,
-    /// The force changes no faster than this, N/s (`safety.slew`).
+    /// The force changes no faster than this, N/s (`safety.slew`), and in no command by more than this times 2 ms.
     pub slew_n_per_s: f64,
     /// The torque changes no faster than this, N m/s (`safety.torque_slew`).
     pub torque_slew_n_m_per_s: f64,

@@ -63,7 +63,9 @@ pub(crate) struct Record {
 
 pub(crate) fn checked(passivity: bool) -> CheckedSettings {
     let names = if passivity { vec![] } else { vec!["safety.passivity".to_owned()] };
-    SafetySettings { passivity, servo_passivity: true, ..SafetySettings::default() }.checked(&names).unwrap()
+    SafetySettings { passivity, servo_passivity: true, ..SafetySettings::default() }
+        .checked(1000.0, &names)
+        .unwrap()
 }
 
 fn press(cycle_s: f64) -> Script {

@@ -9,6 +9,9 @@ use rhombus_chain::Pose;
 pub(crate) const PERIOD_NS: u64 = 1_000_000;
 pub(crate) const PERIOD_S: f64 = 1e-3;
 
+/// No command steps by more than the slew limits allow in this time.
+pub(crate) const LONGEST_STEP_S: f64 = 2e-3;
+
 pub(crate) const LIMITS: DeviceLimits = DeviceLimits {
     max_force_n: Some(15.0),
     max_torque_n_m: Some(0.4),
@@ -71,6 +74,7 @@ impl Done {
 pub(crate) struct Rig {
     pub(crate) layer: SafetyLayer,
     pub(crate) settings: CheckedSettings,
+    period_s: f64,
     now_ns: u64,
 }
 
@@ -89,8 +93,13 @@ pub(crate) fn without_passivity() -> CheckedSettings {
 
 impl Rig {
     pub(crate) fn new(settings: CheckedSettings) -> Rig {
-        let layer = SafetyLayer::new(&settings, &LIMITS, PERIOD_S);
-        Rig { layer, settings, now_ns: 1_000_000_000 }
+        Rig::at_period(settings, PERIOD_S)
+    }
+
+    /// A layer of a loop with another period, which every step of the test has to name.
+    pub(crate) fn at_period(settings: CheckedSettings, period_s: f64) -> Rig {
+        let layer = SafetyLayer::new(&settings, &LIMITS, period_s);
+        Rig { layer, settings, period_s, now_ns: 1_000_000_000 }
     }
 
     /// A layer that was asked for nothing for so many periods: the gate opens after 5.
@@ -131,7 +140,7 @@ impl Rig {
     /// What holds in every period, whatever is asked.
     fn check(&self, done: &Done) {
         let Wrench { force_n, torque_n_m, gripper_force_n } = done.applied.wrench;
-        let dt_s = (done.ask.after_ns as f64 * 1e-9).min(PERIOD_S);
+        let dt_s = (done.ask.after_ns as f64 * 1e-9).min(self.period_s).min(LONGEST_STEP_S);
         let SafetySettings { slew_n_per_s, torque_slew_n_m_per_s, gripper_slew_n_per_s, .. } = *self.settings;
         assert!(done.applied.wrench.is_finite(), "{done:?}");
         assert!(force_n.length() <= 15.0, "{done:?}");

@@ -58,11 +58,11 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         kind: Kind::Double,
         unit: "Hz",
         default: DefaultValue::Double(1000.0),
-        check: Check::Within(10.0, 4000.0),
+        check: Check::Within(200.0, 4000.0),
         length: Length::Any,
         live: false,
         owners: DRIVER,
-        help: "Rate of the motor loop.",
+        help: "Rate of the motor loop. A slower one would keep forces for longer than the safety layer promises.",
     },
     number(
         "device.pose_rate",

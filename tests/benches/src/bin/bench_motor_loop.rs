@@ -164,7 +164,7 @@ fn motor(rate_hz: f64, options: &Options, law: &Arc<ContactLaw>) -> Result<Round
         fifo_priority: PRIORITY,
         cpu: options.cpu,
         source: ForceSource::ContactLaw,
-        safety: SafetySettings::default().checked(&[])?,
+        safety: SafetySettings::default().checked(rate_hz, &[])?,
         enable_at_start: true,
         gravity_compensation: false,
     };
