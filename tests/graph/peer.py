@@ -264,6 +264,7 @@ class Client:
 
     def __init__(self, peer, topic="servo_cf"):
         self.peer, self.topic = peer, topic
+        self.last_ns = 0
 
     def send(self, force, frame="", torque=(0.0, 0.0, 0.0), stamp_ns=None):
         message = WrenchStamped()
@@ -272,6 +273,7 @@ class Client:
             message.header.stamp = self.peer.node.get_clock().now().to_msg()
         else:
             message.header.stamp = Time(sec=stamp_ns // 1_000_000_000, nanosec=stamp_ns % 1_000_000_000)
+        self.last_ns = stamp_of(message)
         f, t = message.wrench.force, message.wrench.torque
         f.x, f.y, f.z = (float(x) for x in force)
         t.x, t.y, t.z = (float(x) for x in torque)

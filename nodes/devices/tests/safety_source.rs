@@ -49,7 +49,7 @@ fn law(ms: u64) -> LawCommand {
 }
 
 fn servo(ms: u64, force_n: DVec3) -> ServoCommand {
-    ServoCommand { received_ns: ms * MS, wrench: Wrench::of_force(force_n), axes: Axes::Base }
+    ServoCommand { since_ns: ms * MS, wrench: Wrench::of_force(force_n), axes: Axes::Base }
 }
 
 /// A source with the newest of every slot, as the motor loop has them.
@@ -142,7 +142,7 @@ fn a_commanded_wrench_in_the_handles_axes_turns_with_the_handle() {
     let mut bench = Bench::new(ForceSource::ServoForce);
     let wrench = Wrench { torque_n_m: DVec3::Y * 0.1, gripper_force_n: 2.0, ..Wrench::of_force(DVec3::X) };
     for (ms, angle) in [(0, 0.0), (20, 0.5), (40, 1.5)] {
-        bench.servo = Some(ServoCommand { received_ns: ms * MS, wrench, axes: Axes::Tip });
+        bench.servo = Some(ServoCommand { since_ns: ms * MS, wrench, axes: Axes::Tip });
         bench.state.pose.rotation = DQuat::from_rotation_z(angle);
         let got = bench.run(ms, ms + 20)[20].wrench;
         assert!((got.force_n - DQuat::from_rotation_z(angle) * DVec3::X).length() < 1e-12);
@@ -224,7 +224,7 @@ fn a_commanded_force_is_used_for_20_ms_and_is_nothing_50_ms_after_its_arrival() 
 #[test]
 fn a_command_that_arrives_while_the_period_runs_is_fresh() {
     let mut bench = Bench::new(ForceSource::ServoForce);
-    bench.servo = Some(ServoCommand { received_ns: 100 * MS + 200_000, ..servo(0, DVec3::X) });
+    bench.servo = Some(ServoCommand { since_ns: 100 * MS + 200_000, ..servo(0, DVec3::X) });
     let wanted = bench.at(100);
     assert_eq!((wanted.origin, wanted.refused), (ForceOrigin::ServoForce, false));
 }
@@ -380,7 +380,7 @@ proptest! {
                 bench.law = Some(LawCommand { validity_ns, ..law(ms) });
                 if kind == 2 {
                     // Its own change is a source's business; here it has none but at the hand-over.
-                    let known = bench.servo.filter(|s| s.received_ns + 21 * MS >= ms * MS);
+                    let known = bench.servo.filter(|s| s.since_ns + 21 * MS >= ms * MS);
                     let force_n = known.map_or(DVec3::X * force_n, |s| s.wrench.force_n);
                     bench.servo = Some(servo(ms, force_n));
                 }

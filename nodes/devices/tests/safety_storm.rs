@@ -84,7 +84,7 @@ impl Dice {
         }
     }
     fn servo(&mut self, now_ns: u64) -> ServoCommand {
-        let received_ns = match self.below(8) {
+        let since_ns = match self.below(8) {
             0 => self.next(),                                   // no time of this clock
             1 => now_ns.saturating_sub(self.below(1 << 40)),    // stale
             2 => now_ns.saturating_add(self.below(1 << 40)),    // from the future
@@ -92,7 +92,7 @@ impl Dice {
             _ => now_ns,
         };
         let axes = if self.one_in(2) { Axes::Tip } else { Axes::Base };
-        ServoCommand { received_ns, wrench: self.wrench(), axes }
+        ServoCommand { since_ns, wrench: self.wrench(), axes }
     }
     fn law(&mut self, stamp_ns: i64, chains: &Arc<ContactLaw>) -> LawCommand {
         let broken = self.one_in(3);
@@ -179,7 +179,7 @@ fn storm(seed: u64, ticks: usize, passivity: bool) -> Tally {
         };
         if calm {
             (law, mode, permitted, lowered_n) = (None, SourceMode::Follow, true, f64::INFINITY);
-            servo = Some(ServoCommand { received_ns: now_ns, wrench: Wrench::ZERO, axes: Axes::Base });
+            servo = Some(ServoCommand { since_ns: now_ns, wrench: Wrench::ZERO, axes: Axes::Base });
         } else {
             if dice.one_in(2) {
                 servo = Some(dice.servo(now_ns));

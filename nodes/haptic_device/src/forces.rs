@@ -10,7 +10,7 @@ use r2r::rhombus_haptics_msgs::msg::ContactLaw;
 use r2r::sensor_msgs::msg::JointState;
 use scene::Scene;
 
-use crate::freshness::{Backlog, Freshness, Untimely};
+use crate::freshness::{Backlog, Freshness, Since, Untimely};
 use crate::law_message::LawReader;
 use crate::now::now_ns;
 use crate::publisher::lock;
@@ -50,6 +50,8 @@ pub(crate) struct Forces {
     looked: Option<Instant>,
     gripper: GripperForce,
     backlog: Backlog,
+    /// Since when the commanded wrenches count.
+    since: Since,
     counts: ForceCounts,
     lines: Lines,
 }
@@ -79,13 +81,13 @@ struct Lines {
 #[derive(Clone, Copy, Debug)]
 struct GripperForce {
     force_n: f64,
-    received_ns: Option<u64>,
+    since_ns: Option<u64>,
     validity_ns: u64,
 }
 
 impl GripperForce {
     fn at(&self, now_ns: u64) -> f64 {
-        let is_valid = self.received_ns.is_some_and(|ns| now_ns.saturating_sub(ns) <= self.validity_ns);
+        let is_valid = self.since_ns.is_some_and(|ns| now_ns.saturating_sub(ns) <= self.validity_ns);
         if is_valid { self.force_n } else { 0.0 }
     }
 }
@@ -131,7 +133,8 @@ impl Forces {
             sources: Sources::default(),
             looked: None,
             backlog: Backlog::new(servo_ns.unsigned_abs()),
-            gripper: GripperForce { force_n: 0.0, received_ns: None, validity_ns: servo_ns.unsigned_abs() },
+            since: Since::default(),
+            gripper: GripperForce { force_n: 0.0, since_ns: None, validity_ns: servo_ns.unsigned_abs() },
             counts: ForceCounts::default(),
             lines: Lines { rejected: line(), untimely: line(), contested: line(), unstable: line() },
         })
@@ -167,14 +170,15 @@ impl Forces {
         let mut is_anew = false;
         for WrenchInbox { topic, inbox, freshness } in &mut inboxes.wrenches {
             while let Some(message) = inbox.take() {
-                let received_ns = monotonic_ns();
+                let now_ns = monotonic_ns();
                 let stamp_ns = convert::stamp_ns(&message.header.stamp);
                 // Other clients' forces have stamps of their own and answer no pose.
                 let answers = *topic == CommandTopic::Servo
-                    && lock(&self.shared.exchange).answers.arrived(stamp_ns, received_ns);
-                if let Some((wrench, axes)) = self.wrench(kit, *topic, &message, freshness) {
+                    && lock(&self.shared.exchange).answers.arrived(stamp_ns, now_ns);
+                if let Some((wrench, axes, age_ns)) = self.wrench(kit, *topic, &message, freshness) {
                     is_anew |= !answers;
-                    motor.send_servo(ServoCommand { received_ns, wrench, axes });
+                    let since_ns = self.since.of(now_ns, age_ns);
+                    motor.send_servo(ServoCommand { since_ns, wrench, axes });
                 }
             }
         }
@@ -183,14 +187,14 @@ impl Forces {
         is_anew
     }
 
-    /// The wrench of a message and its axes, if it is one to follow.
+    /// The wrench of a message, its axes and its age in ns, if it is one to follow.
     fn wrench(
         &mut self,
         kit: &NodeKit,
         topic: CommandTopic,
         message: &WrenchStamped,
         freshness: &mut Freshness,
-    ) -> Option<(Wrench, Axes)> {
+    ) -> Option<(Wrench, Axes, u64)> {
         let axes = match topic {
             CommandTopic::BodyServo => body_axes(self.shared.body_is_absolute.load(Relaxed)),
             _ => Axes::Base,
@@ -206,9 +210,11 @@ impl Forces {
         if !wrench.is_finite() {
             return self.reject(kit, topic, "the wrench is not finite");
         }
-        let is_followed = self.is_only_source(kit, topic)
-            && self.is_timely(kit, topic, freshness, convert::stamp_ns(&message.header.stamp));
-        is_followed.then_some((wrench, axes))
+        if !self.is_only_source(kit, topic) {
+            return None;
+        }
+        let age_ns = self.age_ns(kit, topic, freshness, convert::stamp_ns(&message.header.stamp))?;
+        Some((wrench, axes, age_ns))
     }
 
     fn take_gripper(&mut self, kit: &NodeKit, message: &JointState, freshness: &mut Freshness) {
@@ -223,10 +229,10 @@ impl Forces {
             return self.reject(kit, topic, "the effort is not finite").unwrap_or(());
         }
         if self.is_only_source(kit, topic)
-            && self.is_timely(kit, topic, freshness, convert::stamp_ns(&message.header.stamp))
+            && let Some(age_ns) = self.age_ns(kit, topic, freshness, convert::stamp_ns(&message.header.stamp))
         {
             self.gripper.force_n = force_n;
-            self.gripper.received_ns = Some(monotonic_ns());
+            self.gripper.since_ns = Some(monotonic_ns().saturating_sub(age_ns));
         }
     }
 
@@ -236,9 +242,11 @@ impl Forces {
             Ok(command) => command,
             Err(refusal) => return self.reject(kit, topic, &refusal.to_string()),
         };
-        if !(self.is_only_source(kit, topic) && self.is_timely(kit, topic, freshness, command.stamp_ns)) {
+        if !self.is_only_source(kit, topic) {
             return None;
         }
+        // The motor loop looks at the law's own stamp.
+        self.age_ns(kit, topic, freshness, command.stamp_ns)?;
         if let Some(verdict) = self.stability.warning(&command) {
             // In the words of `rhombus stability`.
             self.lines.unstable.warn(kit.log(), || format!("stability: {verdict}"));
@@ -286,19 +294,20 @@ impl Forces {
         false
     }
 
-    fn is_timely(
+    /// How old a command is, ns; none when it is not to be followed.
+    fn age_ns(
         &mut self,
         kit: &NodeKit,
         topic: CommandTopic,
         freshness: &mut Freshness,
         stamp_ns: i64,
-    ) -> bool {
+    ) -> Option<u64> {
         match freshness.check(stamp_ns, self.clocks_ns(), &self.backlog) {
-            Ok(()) => true,
+            Ok(age_ns) => Some(age_ns),
             Err(untimely) => {
                 self.counts.untimely += 1;
                 self.tell_untimely(kit, topic, untimely);
-                false
+                None
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Which commands are worth following by their stamps: not old, not from the future, not overtaken.
+//! Which commands are worth following by their stamps: not old, not from the future, not overtaken; and how old they are.
 
 use std::fmt;
 
@@ -44,6 +44,21 @@ impl Backlog {
     }
 }
 
+/// Since when commands count, by the monotonic clock. A command is as old as its stamp says, however it was delayed on
+/// its way; and each counts from later than the one before, because the motor loop takes what does not for overtaken.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Since {
+    last_ns: u64,
+}
+
+impl Since {
+    /// For a command that is so old now.
+    pub(crate) fn of(&mut self, now_ns: u64, age_ns: u64) -> u64 {
+        self.last_ns = now_ns.saturating_sub(age_ns).max(self.last_ns.saturating_add(1));
+        self.last_ns
+    }
+}
+
 /// Why a command is not followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Untimely {
@@ -63,17 +78,18 @@ impl Freshness {
         Freshness { limit_ns, last: None }
     }
 
-    /// Judges a stamp by the clocks that its sender may have taken it from; the one that fits best counts. Stamp zero says
-    /// nothing: the command is as old as its arrival, unless it has waited in the queue of a node that was away. The
-    /// order matters only among commands that could both still be followed: the system's clock may be set back.
+    /// Judges a stamp by the clocks that its sender may have taken it from; the one that fits best counts. How old the
+    /// command is, ns. Stamp zero says nothing: the command is as old as its arrival, unless it has waited in the queue of
+    /// a node that was away. The order matters only among commands that could both still be followed: the system's clock
+    /// may be set back.
     pub(crate) fn check(
         &mut self,
         stamp_ns: i64,
         clocks_ns: [i64; 2],
         backlog: &Backlog,
-    ) -> Result<(), Untimely> {
+    ) -> Result<u64, Untimely> {
         if stamp_ns == 0 {
-            return if backlog.has_waited { Ok(()) } else { Err(Untimely::Backlog) };
+            return if backlog.has_waited { Ok(0) } else { Err(Untimely::Backlog) };
         }
         let age_ns = age_ns(stamp_ns, clocks_ns);
         if age_ns > self.limit_ns {
@@ -90,7 +106,8 @@ impl Freshness {
             return Err(Untimely::Overtaken);
         }
         self.last = Some((stamp_ns, arrived_ns));
-        Ok(())
+        // A little from the future is a clock that goes ahead, and no command.
+        Ok(u64::try_from(age_ns).unwrap_or(0))
     }
 }
 
@@ -121,7 +138,7 @@ mod tests {
     const MS: i64 = 1_000_000;
     const NOW: i64 = 1_700_000_000_000 * MS;
 
-    fn check(freshness: &mut Freshness, stamp_ns: i64) -> Result<(), Untimely> {
+    fn check(freshness: &mut Freshness, stamp_ns: i64) -> Result<u64, Untimely> {
         freshness.check(stamp_ns, [NOW, NOW], &Backlog::new(20 * MS as u64))
     }
 
@@ -139,12 +156,12 @@ mod tests {
     fn unstamped_commands_that_waited_for_a_node_that_was_away_are_not_followed() {
         let mut freshness = Freshness::new(20 * MS);
         let mut unstamped = |times_ms: &[f64]| freshness.check(0, [NOW, NOW], &turns_at(times_ms));
-        assert_eq!(unstamped(&[0.0, 1.0, 2.0]), Ok(()));
+        assert_eq!(unstamped(&[0.0, 1.0, 2.0]), Ok(0));
         assert_eq!(unstamped(&[0.0, 800.0]), Err(Untimely::Backlog));
         assert_eq!(unstamped(&[0.0, 800.0, 800.1, 800.2]), Err(Untimely::Backlog));
         assert_eq!(
             unstamped(&[0.0, 800.0, 800.1, 801.1, 801.2]),
-            Ok(()),
+            Ok(0),
             "a turn has waited: the queue was empty"
         );
     }
@@ -153,50 +170,64 @@ mod tests {
     fn a_clock_that_was_set_back_blocks_nobody_for_longer_than_a_command_lives() {
         let mut freshness = Freshness::new(20 * MS);
         let hour = 3_600_000 * MS;
-        assert_eq!(freshness.check(NOW, [NOW, NOW], &turns_at(&[0.0])), Ok(()));
+        assert_eq!(freshness.check(NOW, [NOW, NOW], &turns_at(&[0.0])), Ok(0));
         let earlier = NOW - hour;
         assert_eq!(freshness.check(earlier, [earlier, NOW], &turns_at(&[1.0])), Err(Untimely::Overtaken));
-        assert_eq!(freshness.check(earlier, [earlier, NOW], &turns_at(&[41.0])), Ok(()));
+        assert_eq!(freshness.check(earlier, [earlier, NOW], &turns_at(&[41.0])), Ok(0));
     }
 
     #[test]
     fn a_command_is_followed_up_to_its_age_limit_and_not_beyond() {
         let mut freshness = Freshness::new(20 * MS);
-        assert_eq!(check(&mut freshness, NOW - 20 * MS), Ok(()));
+        assert_eq!(check(&mut freshness, NOW - 20 * MS), Ok(20 * MS as u64));
         assert_eq!(check(&mut freshness, NOW - 21 * MS), Err(Untimely::Old(21 * MS)));
         assert_eq!(check(&mut freshness, NOW + 21 * MS), Err(Untimely::Ahead(21 * MS)));
         assert_eq!(check(&mut freshness, i64::MIN), Err(Untimely::Old(i64::MAX)));
     }
 
     #[test]
+    fn a_command_counts_from_its_stamp_and_later_than_the_one_before() {
+        let mut since = Since::default();
+        let now_ns = 100 * MS as u64;
+        let mut freshness = Freshness::new(20 * MS);
+        let age_ns = check(&mut freshness, NOW - 17 * MS).unwrap();
+        assert_eq!(since.of(now_ns, age_ns), 83 * MS as u64, "not 17 ms more");
+        let ahead_ns = check(&mut freshness, NOW + 5 * MS).unwrap();
+        assert_eq!(since.of(now_ns, ahead_ns), now_ns, "never from the future");
+        // By another clock it may seem older than the one before.
+        assert_eq!(since.of(now_ns, 3 * MS as u64), now_ns + 1);
+        assert_eq!(Since::default().of(5, 20), 1, "a machine that was just switched on");
+    }
+
+    #[test]
     fn an_overtaken_command_is_not_followed_nor_the_same_one_twice() {
         let mut freshness = Freshness::new(20 * MS);
-        assert_eq!(check(&mut freshness, NOW - 5 * MS), Ok(()));
+        assert_eq!(check(&mut freshness, NOW - 5 * MS), Ok(5 * MS as u64));
         assert_eq!(check(&mut freshness, NOW - 5 * MS), Err(Untimely::Overtaken));
         assert_eq!(check(&mut freshness, NOW - 6 * MS), Err(Untimely::Overtaken));
-        assert_eq!(check(&mut freshness, NOW - 4 * MS), Ok(()));
+        assert_eq!(check(&mut freshness, NOW - 4 * MS), Ok(4 * MS as u64));
     }
 
     #[test]
     fn a_refused_stamp_from_the_future_does_not_block_what_comes_after() {
         let mut freshness = Freshness::new(20 * MS);
         assert!(check(&mut freshness, i64::MAX).is_err());
-        assert_eq!(check(&mut freshness, NOW), Ok(()));
+        assert_eq!(check(&mut freshness, NOW), Ok(0));
     }
 
     #[test]
     fn stamp_zero_is_a_client_that_sets_none() {
         let mut freshness = Freshness::new(20 * MS);
-        assert_eq!(check(&mut freshness, 0), Ok(()));
-        assert_eq!(check(&mut freshness, NOW), Ok(()));
-        assert_eq!(check(&mut freshness, 0), Ok(()));
+        assert_eq!(check(&mut freshness, 0), Ok(0));
+        assert_eq!(check(&mut freshness, NOW), Ok(0));
+        assert_eq!(check(&mut freshness, 0), Ok(0));
     }
 
     #[test]
     fn stamps_may_come_from_the_system_or_from_the_poses() {
         let mut freshness = Freshness::new(20 * MS);
         let hour = 3_600_000 * MS;
-        assert_eq!(freshness.check(NOW + hour, [NOW, NOW + hour], &turns_at(&[])), Ok(()));
-        assert_eq!(Freshness::new(20 * MS).check(NOW, [NOW, NOW + hour], &turns_at(&[])), Ok(()));
+        assert_eq!(freshness.check(NOW + hour, [NOW, NOW + hour], &turns_at(&[])), Ok(0));
+        assert_eq!(Freshness::new(20 * MS).check(NOW, [NOW, NOW + hour], &turns_at(&[])), Ok(0));
     }
 }

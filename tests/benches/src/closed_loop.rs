@@ -199,7 +199,7 @@ impl Topics {
                 self.law = Some(LawCommand { stamp_ns, validity_ns: 100_000_000, local, chains });
             } else {
                 let wrench = Wrench::of_force(floor.force_n(&self.chains, probe));
-                self.servo = Some(ServoCommand { received_ns: now_ns, wrench, axes: Axes::Base });
+                self.servo = Some(ServoCommand { since_ns: now_ns, wrench, axes: Axes::Base });
             }
         }
     }

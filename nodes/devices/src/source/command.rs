@@ -67,8 +67,9 @@ pub enum Axes {
 /// A wrench for the motors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ServoCommand {
-    /// When it arrived, by [`monotonic_ns`](crate::monotonic_ns).
-    pub received_ns: u64,
+    /// Since when it counts, by [`monotonic_ns`](crate::monotonic_ns): its stamp, or its arrival where it has none. Later
+    /// for every command.
+    pub since_ns: u64,
     /// On the hand.
     pub wrench: Wrench,
     /// Its axes.

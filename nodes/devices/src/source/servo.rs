@@ -22,14 +22,14 @@ impl Servo {
     /// one before. The last usable one then goes on, and gets older. RT safe.
     pub(super) fn take(&mut self, newest: Option<&ServoCommand>, now: Moment) -> bool {
         let Some(command) = newest else { return false };
-        let known_ns = self.last.map(|last| last.received_ns);
-        if known_ns == Some(command.received_ns) || self.refused_ns == Some(command.received_ns) {
+        let known_ns = self.last.map(|last| last.since_ns);
+        if known_ns == Some(command.since_ns) || self.refused_ns == Some(command.since_ns) {
             return false;
         }
-        let in_order = known_ns.is_none_or(|known_ns| command.received_ns > known_ns);
-        let in_time = command.received_ns <= now.monotonic_ns.saturating_add(YOUNGEST_NS);
+        let in_order = known_ns.is_none_or(|known_ns| command.since_ns > known_ns);
+        let in_time = command.since_ns <= now.monotonic_ns.saturating_add(YOUNGEST_NS);
         if !(command.wrench.is_finite() && in_order && in_time) {
-            self.refused_ns = Some(command.received_ns);
+            self.refused_ns = Some(command.since_ns);
             return true;
         }
         let Wrench { force_n, torque_n_m, gripper_force_n } = command.wrench;
@@ -45,8 +45,8 @@ impl Servo {
     /// The command, in the device frame for the handle as it is now, and until when it may be used in full; none when it
     /// is older. RT safe.
     pub(super) fn wrench(&self, state: &DeviceState, validity_ns: u64, now: Moment) -> Option<(Wrench, u64)> {
-        let ServoCommand { received_ns, wrench, axes } = self.last?;
-        let until_ns = received_ns.saturating_add(validity_ns);
+        let ServoCommand { since_ns, wrench, axes } = self.last?;
+        let until_ns = since_ns.saturating_add(validity_ns);
         if now.monotonic_ns > until_ns {
             return None;
         }
