@@ -41,6 +41,8 @@ const FIRST: std::ops::Range<usize> = 100..400;
 const SECOND: std::ops::Range<usize> = 250..550;
 const END: usize = 700;
 const LOWERED_N: f64 = 3.0;
+/// The most that the passivity controller damps with.
+const LARGEST_DAMPING_N: f64 = 4.0;
 
 /// What a scenario is made of, besides its two rules.
 struct Hand {
@@ -104,23 +106,30 @@ impl Rule {
         matches!(self, NotFinite | Gate | Silence | Disabled | Blind | Velocity)
     }
 
-    /// By how much a period breaks the rule; the force may still be on its way at the slew limit.
-    fn excess(self, done: &Done) -> f64 {
-        let Wrench { force_n, torque_n_m, gripper_force_n } = done.applied.wrench;
+    /// By how much `wrench`, held in this period, would break the rule: force, torque, gripper force. What a period
+    /// applies may still be on its way at the slew limit.
+    fn excess(self, done: &Done, wrench: &Wrench) -> [f64; 3] {
+        let Wrench { force_n, torque_n_m, gripper_force_n } = *wrench;
         let DeviceState { linear_velocity_m_per_s, .. } = done.ask.state;
+        let everything = [force_n.length(), torque_n_m.length(), gripper_force_n.abs()];
+        let of_force = |excess_n: f64| [excess_n, 0.0, 0.0];
         match self {
-            NotFinite | Silence | Disabled | Blind | Gate => {
-                force_n.length() + torque_n_m.length() + gripper_force_n.abs()
+            // No source, no force; but a deficit of energy is worked off all the same, against the motion.
+            NotFinite | Silence if done.hit(LimitsHit::PASSIVITY) => {
+                let along = linear_velocity_m_per_s.normalize_or_zero();
+                let damping_n = (-force_n.dot(along)).clamp(0.0, LARGEST_DAMPING_N);
+                [(force_n + along * damping_n).length(), everything[1], everything[2]]
             }
-            Velocity if done.applied.fault.is_some() => force_n.length(),
+            NotFinite | Silence | Disabled | Blind | Gate => everything,
+            Velocity if done.applied.fault.is_some() => everything,
             Workspace => {
                 let across = done.ask.state.pose.translation.with_z(0.0);
                 let share = ((0.18 - across.length()) / 0.005).clamp(0.0, 1.0);
-                force_n.dot(across.normalize_or_zero()) - 15.0 * share
+                of_force(force_n.dot(across.normalize_or_zero()) - 15.0 * share)
             }
-            Power => force_n.dot(linear_velocity_m_per_s) - 10.0,
-            Lowered => force_n.length() - LOWERED_N,
-            Passivity | Force | Torque | Gripper | Reversal | Late | Velocity => 0.0,
+            Power => of_force(force_n.dot(linear_velocity_m_per_s) - 10.0),
+            Lowered => of_force(force_n.length() - LOWERED_N),
+            Passivity | Force | Torque | Gripper | Reversal | Late | Velocity => [0.0; 3],
         }
     }
 }
@@ -162,13 +171,15 @@ fn scenario(first: Rule, second: Rule) -> Vec<Done> {
     records
 }
 
-/// Whether force, torque or gripper force moved as fast as it may.
-fn moved_at_the_limit(done: &Done) -> bool {
+/// Whether force, torque and gripper force each moved as fast as they may.
+fn moved_at_the_limit(done: &Done) -> [bool; 3] {
     let dt_s = (done.ask.after_ns as f64 * 1e-9).min(PERIOD_S);
     let (now, before) = (done.applied.wrench, done.before);
-    (now.force_n - before.force_n).length() > 0.999 * 2000.0 * dt_s
-        || (now.torque_n_m - before.torque_n_m).length() > 0.999 * 50.0 * dt_s
-        || (now.gripper_force_n - before.gripper_force_n).abs() > 0.999 * 1000.0 * dt_s
+    [
+        (now.force_n - before.force_n).length() > 0.999 * 2000.0 * dt_s,
+        (now.torque_n_m - before.torque_n_m).length() > 0.999 * 50.0 * dt_s,
+        (now.gripper_force_n - before.gripper_force_n).abs() > 0.999 * 1000.0 * dt_s,
+    ]
 }
 
 #[test]
@@ -184,11 +195,17 @@ fn every_two_rules_hold_together() {
                     assert!(during().any(|d| rule.acted(d)), "{rule:?} did not act beside {other:?}");
                 }
                 for (tick, done) in during().enumerate() {
-                    let excess = rule.excess(done);
-                    assert!(
-                        excess <= 1e-9 || moved_at_the_limit(done),
-                        "{rule:?} beside {other:?}, period {tick}: {excess} too much without moving: {done:?}"
-                    );
+                    let (now, before) =
+                        (rule.excess(done, &done.applied.wrench), rule.excess(done, &done.before));
+                    for (channel, moved) in moved_at_the_limit(done).into_iter().enumerate() {
+                        // Too much is only what is on its way back, and that as fast as it may.
+                        let (now, before) = (now[channel], before[channel]);
+                        assert!(
+                            now <= 1e-9 || (moved && now < before),
+                            "{rule:?} beside {other:?}, period {tick}, channel {channel}: {now} too much after {before}: \
+                             {done:?}"
+                        );
+                    }
                 }
                 // What takes the force has it after 20 periods, however late they are.
                 if matches!(rule, NotFinite | Silence | Disabled | Blind) {
