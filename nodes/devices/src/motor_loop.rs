@@ -15,7 +15,7 @@ use crate::safety::CheckedSettings;
 use crate::shared::Shared;
 use crate::{
     Answer, Counts, Description, Device, DeviceError, ForceSource, LawCommand, MotorStatus, Request,
-    SampleSender, Scheduling, ServoCommand, StateCommand,
+    SampleSender, Scheduling, ServoCommand, StateCommand, Workspace,
 };
 
 /// Accepted rates of the loop, Hz. A slower one would break what is promised of any: with 5 ms between two commands, none
@@ -45,15 +45,17 @@ pub struct MotorSettings {
 /// Why there is no motor loop, or none any more.
 #[derive(Debug, Error)]
 pub enum MotorError {
-    /// The device says it can push with a force that no motor has.
-    #[error("the {device} device says that its largest {what} is {value}; accepted is a finite number > 0")]
+    /// The device says it can push with a force that no motor has, or stands nowhere.
+    #[error("the {device} device says that its {what} is {value}; accepted is a finite number{}", if *is_size { " > 0" } else { "" })]
     Limits {
         /// The backend.
         device: &'static str,
-        /// Force, torque, gripper force, or an extent of the workspace.
+        /// The largest force, torque or gripper force, or a number of the workspace, with its unit.
         what: &'static str,
         /// What it says.
         value: f64,
+        /// Whether it has to be larger than zero.
+        is_size: bool,
     },
     /// A rate that is not one.
     #[error("a motor loop of {rate_hz} Hz: accepted is {} to {}", RATES_HZ.start(), RATES_HZ.end())]
@@ -212,21 +214,29 @@ impl Drop for MotorLoop {
     }
 }
 
-/// A device without motors is one; motors without a strength are not.
+/// A device without motors is one; motors without a strength are not, nor is a workspace that is nowhere.
 pub(crate) fn check_limits(description: &Description) -> Result<(), MotorError> {
     let limits = &description.limits;
-    let numbers = [
-        ("force [N]", limits.max_force_n),
-        ("torque [N m]", limits.max_torque_n_m),
-        ("gripper force [N]", limits.max_gripper_force_n),
-        ("workspace radius [m]", Some(limits.workspace.radius_m)),
-        ("workspace height [m]", Some(limits.workspace.height_m)),
+    let Workspace { centre, radius_m, height_m } = limits.workspace;
+    let sizes = [
+        ("largest force [N]", limits.max_force_n),
+        ("largest torque [N m]", limits.max_torque_n_m),
+        ("largest gripper force [N]", limits.max_gripper_force_n),
+        ("workspace's radius [m]", Some(radius_m)),
+        ("workspace's height [m]", Some(height_m)),
     ];
-    for (what, value) in numbers {
-        if let Some(value) = value
-            && !(value.is_finite() && value > 0.0)
-        {
-            return Err(MotorError::Limits { device: description.backend, what, value });
+    let places = [
+        ("workspace's centre x [m]", Some(centre.x)),
+        ("workspace's centre y [m]", Some(centre.y)),
+        ("workspace's centre z [m]", Some(centre.z)),
+    ];
+    for (numbers, is_size) in [(&sizes[..], true), (&places[..], false)] {
+        for &(what, value) in numbers {
+            if let Some(value) = value
+                && !(value.is_finite() && (value > 0.0 || !is_size))
+            {
+                return Err(MotorError::Limits { device: description.backend, what, value, is_size });
+            }
         }
     }
     Ok(())

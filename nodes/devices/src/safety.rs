@@ -2,7 +2,7 @@
 //! lock: it runs in the motor loop, and in tests and studies as it is.
 //!
 //! ```text
-//! Wanted -> finite -> clamp -> engage gate -> workspace edge -> passivity -> power -> clamp -> slew -> motors
+//! Wanted -> finite -> clamp -> engage gate -> workspace edge -> passivity -> power -> clamp -> finite -> slew -> motors
 //!                        velocity guard ------------> fault: the same way to zero, at the slew limit
 //! ```
 //!

@@ -57,6 +57,7 @@ struct Plan {
     lost_at: Option<u64>,
     panics_at: Option<u64>,
     max_force_n: Option<f64>,
+    workspace: Option<Workspace>,
     /// Reading from which on the handle is in the floor.
     pressed_from: u64,
 }
@@ -123,7 +124,7 @@ fn opener(
             max_force_n: Some(plan.max_force_n.unwrap_or(20.0)),
             max_torque_n_m: None,
             max_gripper_force_n: None,
-            workspace: Workspace { centre: DVec3::ZERO, radius_m: 0.1, height_m: 0.1 },
+            workspace: plan.workspace.unwrap_or(WORKSPACE),
         };
         let description = Description {
             backend: "handle",
@@ -213,7 +214,9 @@ fn floor(stamp_ns: i64, chains: Arc<ContactLaw>) -> LawCommand {
     LawCommand { stamp_ns, validity_ns: 100_000_000, local, chains }
 }
 
-const PRESSED: Plan = Plan { lost_at: None, panics_at: None, max_force_n: None, pressed_from: 40 };
+const WORKSPACE: Workspace = Workspace { centre: DVec3::ZERO, radius_m: 0.1, height_m: 0.1 };
+const PRESSED: Plan =
+    Plan { lost_at: None, panics_at: None, max_force_n: None, workspace: None, pressed_from: 40 };
 
 #[test]
 fn the_loop_answers_with_the_laws_force_and_never_calls_the_allocator() {
@@ -408,6 +411,18 @@ fn a_device_or_a_rate_that_makes_no_sense_is_refused() {
         let plan = Plan { max_force_n: Some(max_force_n), ..Plan::default() };
         let started = MotorLoop::start(opener(plan, &Arc::default()), settings(), samples(8).0);
         assert!(matches!(started, Err(MotorError::Limits { .. })));
+    }
+    for bad in [f64::NAN, f64::INFINITY] {
+        for (workspace, what) in [
+            (Workspace { centre: DVec3::new(0.0, bad, 0.0), ..WORKSPACE }, "centre y [m]"),
+            (Workspace { radius_m: bad, ..WORKSPACE }, "radius [m]"),
+            (Workspace { height_m: -0.1, ..WORKSPACE }, "height [m]"),
+        ] {
+            let plan = Plan { workspace: Some(workspace), ..Plan::default() };
+            let started = MotorLoop::start(opener(plan, &Arc::default()), settings(), samples(8).0);
+            let refusal = started.err().unwrap().to_string();
+            assert!(refusal.contains(what) && refusal.contains("accepted is a finite number"), "{refusal}");
+        }
     }
     for rate_hz in [0.0, 199.0, 4001.0, f64::NAN] {
         let settings = MotorSettings { rate_hz, ..settings() };

@@ -5,7 +5,7 @@ mod safety_support;
 
 use devices::safety::{FaultCause, LimitsHit, SafetyLayer, SafetySettings};
 use devices::source::ForceOrigin;
-use devices::{DeviceLimits, DeviceState, RATES_HZ, Wrench};
+use devices::{DeviceLimits, DeviceState, RATES_HZ, Workspace, Wrench};
 use glam::DVec3;
 use proptest::prelude::*;
 use safety_support::checked;
@@ -127,6 +127,19 @@ fn a_wanted_force_that_is_not_finite_is_none_and_the_force_falls_at_the_slew_lim
             let expected = [3.0, 1.0, 0.0];
             assert!(forces_n(&done).iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{done:?}");
         }
+    }
+}
+
+#[test]
+fn a_rule_that_comes_to_a_force_that_is_not_finite_is_a_fault_and_no_force() {
+    let nowhere = Workspace { centre: DVec3::new(0.0, f64::NAN, 0.0), ..LIMITS.workspace };
+    let mut rig = engaged();
+    rig.layer =
+        SafetyLayer::new(&without_passivity(), &DeviceLimits { workspace: nowhere, ..LIMITS }, PERIOD_S);
+    let done = rig.steps(Ask::default(), 2100);
+    assert!(done.iter().any(|d| d.applied.fault == Some(FaultCause::ForceNotFinite)));
+    for done in rig.steps(Ask::force(PUSH), 100) {
+        assert_eq!((done.applied.wrench, done.energy.dissipated_j), (Wrench::ZERO, 0.0));
     }
 }
 

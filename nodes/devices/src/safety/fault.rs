@@ -22,6 +22,11 @@ pub enum FaultCause {
     /// The device's readings were not finite for too long.
     #[error("the device's readings are not finite; check device and cable, then enable")]
     NotFinite,
+    /// The safety layer itself came to a force that is not finite.
+    #[error(
+        "the safety layer came to a force that is not finite; report this with the log and the device's model, then enable"
+    )]
+    ForceNotFinite,
     /// The ROS thread was silent for longer than `safety.ros_timeout`.
     #[error(
         "the ROS thread has not been heard of for safety.ros_timeout; restart the driver if it stays silent, otherwise enable"
@@ -93,6 +98,7 @@ mod tests {
             FaultCause::Velocity,
             FaultCause::DeviceLost,
             FaultCause::NotFinite,
+            FaultCause::ForceNotFinite,
             FaultCause::RosThreadHung,
             FaultCause::HomingFailed,
         ];

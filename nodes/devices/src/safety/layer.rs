@@ -20,7 +20,7 @@ const LONGEST_BLINDNESS_S: f64 = 0.02;
 pub struct Applied {
     /// Finite, within every limit, at most one slew step from the one before.
     pub wrench: Wrench,
-    /// What is wrong with the handle's motion; the wrench is on its way to zero already.
+    /// What is wrong with the handle's motion, or with this layer's own sums; the wrench is on its way to zero already.
     pub fault: Option<FaultCause>,
     /// The rules that changed something.
     pub limits_hit: LimitsHit,
@@ -97,7 +97,7 @@ impl SafetyLayer {
         let held = self.held(elapsed_s);
         self.energy.observe(&held, &self.kept, self.controlled, state, elapsed_s);
         self.controlled = self.controls(wanted.origin);
-        let fault = self.guard(state, permits_force, elapsed_s);
+        let mut fault = self.guard(state, permits_force, elapsed_s);
 
         let mut target = finite::or_nothing(wanted.wrench, &mut hit);
         self.kept = Wrench::ZERO;
@@ -117,6 +117,13 @@ impl SafetyLayer {
         } else {
             self.gate.close();
             target = Wrench::ZERO;
+        }
+        if !target.is_finite() {
+            // Nothing above may come to that. If it does all the same, nobody trusts it from now on.
+            hit.insert(LimitsHit::NOT_FINITE);
+            self.gate.close();
+            (target, self.kept) = (Wrench::ZERO, Wrench::ZERO);
+            fault = fault.or(Some(FaultCause::ForceNotFinite));
         }
         self.applied = self.slew.apply(&self.applied, &target, dt_s, &mut hit);
         Applied { wrench: self.applied, fault, limits_hit: hit }
