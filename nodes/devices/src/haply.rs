@@ -20,6 +20,7 @@
 //! at its edge takes no force away where the handle can be.
 
 mod choose;
+mod claim;
 mod exchange;
 mod frame;
 mod line;
@@ -39,6 +40,7 @@ use crate::latest::{Receiver, Sender, latest};
 use crate::{
     Description, Device, DeviceError, DeviceLimits, DeviceState, Found, Workspace, Wrench, monotonic_ns,
 };
+use claim::Claim;
 use exchange::{COMMAND_AGE_NS, Exchange, Shared, THREAD_AGE_NS};
 use line::{Address, Line};
 use reading::Reader;
@@ -90,13 +92,15 @@ pub struct HaplyDevice {
     readings: Receiver<DeviceState>,
     /// Ends with the sender of the readings, so that [`read`](Device::read) never is the one that frees them.
     thread: Option<JoinHandle<Sender<DeviceState>>>,
+    /// Given up after the thread has said goodbye.
+    _claim: Claim,
 }
 
 /// Opens a device.
 ///
 /// # Errors
-/// No service, no such device, more than one and no serial, a device that is not calibrated, a service that answers
-/// something else: each with its remedy.
+/// No service, no such device, more than one and no serial, a device that is not calibrated or that another program
+/// commands, a service that answers something else: each with its remedy.
 pub fn open(settings: Settings) -> Result<HaplyDevice, DeviceError> {
     let address = Address::parse(&settings.url)?;
     let max_force_n = settings.max_force_n;
@@ -112,6 +116,8 @@ pub fn open(settings: Settings) -> Result<HaplyDevice, DeviceError> {
     let arm = choose::arm(&message, &settings)?;
     let grip_id = choose::grip(&message, &settings)?;
     let device_id = arm.device_id.to_string();
+    let claim = Claim::of(line.place()?, &device_id)?;
+    claim::wait_until_idle(&mut line, address.url(), arm)?;
     let description = Description {
         backend: BACKEND,
         model: choose::model(arm),
@@ -149,7 +155,7 @@ pub fn open(settings: Settings) -> Result<HaplyDevice, DeviceError> {
             what: format!("there is no thread for the Haply service ({error})"),
             remedy: "end other programs, or raise the limit of threads".to_owned(),
         })?;
-    Ok(HaplyDevice { description, shared, readings, thread: Some(thread) })
+    Ok(HaplyDevice { description, shared, readings, thread: Some(thread), _claim: claim })
 }
 
 /// The devices that the service knows.

@@ -2,7 +2,7 @@
 //! [`LONGEST_MESSAGE`], whatever the other end does.
 
 use std::io::{self, Read, Write};
-use std::net::{TcpStream, ToSocketAddrs};
+use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
 
 use tungstenite::protocol::WebSocketConfig;
@@ -109,6 +109,15 @@ impl Line {
                 })
             }
         }
+    }
+
+    /// Where the service is.
+    pub(super) fn place(&self) -> Result<SocketAddr, DeviceError> {
+        self.socket
+            .get_ref()
+            .stream
+            .peer_addr()
+            .map_err(|_| DeviceError::Lost { device: BACKEND, reason: Fault::Closed.reason() })
     }
 
     /// Sends one text.

@@ -1,9 +1,15 @@
 //! What can be opened, and what is said about the rest.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
+use std::time::Duration;
+
 use devices::haply::{self, Settings};
 use devices::{Device, DeviceError};
+use glam::DVec3;
 
-use crate::double::{Double, refusal};
+use crate::double::{Double, eventually, refusal};
 
 #[test]
 fn two_devices_need_a_serial_and_the_long_id_is_one_too() {
@@ -65,6 +71,54 @@ fn what_cannot_be_opened_says_why_and_what_to_do() {
         let text = refusal(double.settings());
         assert!(text.contains(said) && text.contains(remedy), "{fault}: {text}");
     }
+}
+
+#[test]
+fn a_device_that_another_driver_has_is_in_use_until_that_one_ends() {
+    // A service before 3.5 is held by forces of zero, a newer one is silent while the motors are off.
+    for options in [&["--devices", "049D,04C3"][..], &["--service", "3.1", "--devices", "049D,04C3"]] {
+        let double = Double::start(options);
+        let one = || Settings { serial: "049D".to_owned(), ..double.settings() };
+        let mut device = haply::open(one()).unwrap();
+        // By another name of the same machine it is the same device.
+        let numbers = Settings { url: double.url.replace("localhost", "127.0.0.1"), ..one() };
+        for settings in [one(), numbers] {
+            let text = refusal(settings);
+            assert_eq!(
+                text,
+                "the Inverse3 049D is in use by another program; end that program, then try again"
+            );
+        }
+        device.read().unwrap();
+        drop(haply::open(Settings { serial: "04C3".to_owned(), ..one() }).unwrap());
+        drop(device);
+        drop(haply::open(one()).unwrap());
+    }
+}
+
+#[test]
+fn a_device_that_a_foreign_program_commands_is_in_use_until_it_stops() {
+    // A busy machine may keep the foreign program from sending for longer than a service's tick.
+    let double = Double::start(&["--tick-ms", "1000"]);
+    let (mut socket, _) = tungstenite::connect(&double.url).unwrap();
+    let goes_on = Arc::new(AtomicBool::new(true));
+    let theirs = goes_on.clone();
+    let foreign = std::thread::spawn(move || {
+        let push = r#"{"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0.5,"y":0,"z":0}}}}]}"#;
+        while theirs.load(Relaxed) {
+            socket.send(tungstenite::Message::text(push)).unwrap();
+            socket.read().unwrap();
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    });
+    eventually("pressing", || double.record().last().is_some_and(|line| line.2 != DVec3::ZERO));
+    assert!(refusal(double.settings()).contains("049D is in use by another program"));
+    assert!(
+        double.record().iter().skip(5).all(|(_, event, force)| event != "command" || *force != DVec3::ZERO)
+    );
+    goes_on.store(false, Relaxed);
+    foreign.join().unwrap();
+    eventually("its end", || haply::open(double.settings()).is_ok());
 }
 
 #[test]

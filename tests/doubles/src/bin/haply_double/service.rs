@@ -59,18 +59,20 @@ impl Service {
         Some(DVec3::new(force["x"].as_f64()?, force["y"].as_f64()?, force["z"].as_f64()?))
     }
 
-    /// Does what a message asks for.
-    pub(crate) fn obey(&self, request: &Value) -> io::Result<()> {
+    /// Does what a message asks for. `commands`: whether its session is one that commands the device, and with a message
+    /// without a force lets it idle; of the others a question is only a question.
+    pub(crate) fn obey(&self, request: &Value, commands: &mut bool) -> io::Result<()> {
         let now_ns = monotonic_ns();
         let mut handle = self.handle();
         match self.force(request) {
             Some(force_n) if !self.signals.unplugged() => {
+                *commands = true;
                 if !handle.motors.are_on() {
                     handle.motors.enable(now_ns)?;
                 }
                 handle.motors.command(now_ns, Wrench::of_force(force_n))
             }
-            _ if handle.motors.are_on() => handle.motors.off(now_ns, Event::Off),
+            _ if std::mem::take(commands) && handle.motors.are_on() => handle.motors.off(now_ns, Event::Off),
             _ => Ok(()),
         }
     }

@@ -22,6 +22,7 @@ pub(crate) fn serve(service: &Service, stream: TcpStream) -> Result<(), Box<dyn 
     let mut socket = tungstenite::accept(stream).map_err(|error| error.to_string())?;
     let mut sent = 0;
     let mut full = true;
+    let mut commands = false;
     loop {
         // Some faults never come back.
         misbehave(&mut socket, service.fault(sent))?;
@@ -38,7 +39,7 @@ pub(crate) fn serve(service: &Service, stream: TcpStream) -> Result<(), Box<dyn 
             return Ok(());
         }
         full = request["session"]["force_render_full_state"].is_object();
-        service.obey(&request)?;
+        service.obey(&request, &mut commands)?;
     }
 }
 
