@@ -69,7 +69,7 @@ pub use emergency::{is_motor_loop, motors_off_at_once};
 pub use error::DeviceError;
 pub use motor_loop::{MotorError, MotorLoop, MotorSettings, RATES_HZ};
 pub use operating::{OperatingState, StateCommand};
-pub use realtime::{Scheduling, monotonic_ns, sleep_until};
+pub use realtime::{Scheduling, monotonic_ns, next_deadline, sleep_until};
 pub use requests::{Answer, Request};
 pub use safety::{CheckedSettings, FaultCause, LimitsHit, SafetyError, SafetySettings};
 pub use samples::{SampleReceiver, SampleSender, samples};

@@ -8,7 +8,7 @@ use crate::emergency::Running;
 use crate::latest::Receiver;
 use crate::motor_loop::check_limits;
 use crate::operation::Operation;
-use crate::realtime::{block_signals, monotonic_ns, sleep_until, system_ns};
+use crate::realtime::{block_signals, monotonic_ns, next_deadline, sleep_until, system_ns};
 use crate::requests::Askee;
 use crate::shared::{Counters, Shared};
 use crate::source::Moment;
@@ -188,25 +188,4 @@ fn release(ticker: &mut Ticker, period_ns: u64, clock: &mut StampClock) -> Resul
 fn moment(clock: &mut StampClock) -> Moment {
     let monotonic_ns = monotonic_ns();
     Moment { monotonic_ns, stamp_ns: clock.stamp(monotonic_ns, system_ns()) }
-}
-
-/// The deadline after `deadline_ns` and how many are left out: those that are a whole period past at `now_ns`. Running
-/// them in a burst would command old positions' forces one after the other.
-fn next_deadline(deadline_ns: u64, period_ns: u64, now_ns: u64) -> (u64, u64) {
-    let next_ns = deadline_ns + period_ns;
-    let skipped = now_ns.saturating_sub(next_ns) / period_ns;
-    (next_ns + skipped * period_ns, skipped)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn deadlines_stay_on_the_grid_and_whole_missed_periods_are_left_out() {
-        assert_eq!(next_deadline(1000, 100, 1010), (1100, 0)); // in time
-        assert_eq!(next_deadline(1000, 100, 1150), (1100, 0)); // late: the next one runs at once
-        assert_eq!(next_deadline(1000, 100, 1200), (1200, 1));
-        assert_eq!(next_deadline(1000, 100, 1437), (1400, 3));
-    }
 }

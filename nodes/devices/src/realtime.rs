@@ -31,6 +31,11 @@ impl Scheduling {
         }
     }
 
+    /// Whether the thread runs at the priority that was asked for.
+    pub fn is_fifo(&self) -> bool {
+        self.fifo.is_ok()
+    }
+
     /// Whether all that was asked for was granted.
     pub fn is_granted(&self) -> bool {
         self.fifo.is_ok() && self.memory.is_ok() && self.cpu.as_ref().is_none_or(|(_, pinned)| pinned.is_ok())
@@ -141,6 +146,14 @@ fn read_clock(clock: libc::clockid_t) -> libc::timespec {
     time
 }
 
+/// The deadline after `deadline_ns` and how many are left out: those that are a whole period past at `now_ns`. Running
+/// them in a burst would command old positions' forces one after the other. One period that is late runs at once. RT safe.
+pub fn next_deadline(deadline_ns: u64, period_ns: u64, now_ns: u64) -> (u64, u64) {
+    let next_ns = deadline_ns + period_ns;
+    let skipped = now_ns.saturating_sub(next_ns) / period_ns;
+    (next_ns + skipped * period_ns, skipped)
+}
+
 /// Sleeps until the monotonic clock shows `deadline_ns`; returns at once when that is past. RT safe.
 pub fn sleep_until(deadline_ns: u64) {
     let deadline = libc::timespec {
@@ -166,6 +179,14 @@ pub fn sleep_until(deadline_ns: u64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn deadlines_stay_on_the_grid_and_whole_missed_periods_are_left_out() {
+        assert_eq!(next_deadline(1000, 100, 1010), (1100, 0)); // in time
+        assert_eq!(next_deadline(1000, 100, 1150), (1100, 0)); // late: the next one runs at once
+        assert_eq!(next_deadline(1000, 100, 1200), (1200, 1));
+        assert_eq!(next_deadline(1000, 100, 1437), (1400, 3));
+    }
 
     #[test]
     fn sleep_never_ends_before_its_deadline() {

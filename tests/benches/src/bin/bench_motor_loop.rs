@@ -1,6 +1,7 @@
 //! The motor loop beside a bare loop that only sleeps until absolute deadlines, in alternating pairs of the same run.
 //!
-//! Both threads ask for the same priority. What is compared is lateness: how long after its deadline a period began.
+//! Both threads ask for the same priority, and the file says whether they got it. What is compared is lateness: how long
+//! after its deadline a period began; both leave out by the same rule what they are too late for.
 //! The motor loop works as in a session: a simulated hand presses into a floor, a contact law of three chains arrives
 //! every 10 ms, samples leave for a second thread. Its own work is reading, choosing, making safe and commanding,
 //! the simulated mechanics included.
@@ -18,7 +19,7 @@ use clap::Parser;
 use devices::simulated::{Flaws, HandSettings, Motion, Settings, Site, press_slide_grasp_pull};
 use devices::{
     Backend, ForceOrigin, ForceSource, LawCommand, MotorLoop, MotorSettings, SafetySettings, Sample,
-    Scheduling, monotonic_ns, samples, sleep_until,
+    Scheduling, monotonic_ns, next_deadline, samples, sleep_until,
 };
 use glam::DVec3;
 use rhombus_benches::{Spread, machine_name};
@@ -59,6 +60,8 @@ struct Round {
     largest_step_n: f64,
     in_contact: usize,
     skipped: u64,
+    /// Whether the loop's thread got `SCHED_FIFO`.
+    fifo: bool,
 }
 
 fn main() -> Result<()> {
@@ -74,7 +77,7 @@ fn main() -> Result<()> {
     )?;
     writeln!(
         csv,
-        "rate_hz,pair,loop,what,p999,periods,skipped,largest_step_n,in_contact,{}",
+        "rate_hz,pair,loop,fifo,what,p999,periods,skipped,largest_step_n,in_contact,{}",
         Spread::CSV_HEADER
     )?;
     for &rate_hz in &options.rates {
@@ -95,7 +98,8 @@ fn main() -> Result<()> {
                     let Some(spread) = Spread::of(&mut samples.clone()) else { continue };
                     writeln!(
                         csv,
-                        "{rate_hz},{pair},{name},{what},{:.2},{},{},{:.6},{},{}",
+                        "{rate_hz},{pair},{name},{},{what},{:.2},{},{},{:.6},{},{}",
+                        u8::from(round.fifo),
                         quantile(samples, 0.999),
                         samples.len(),
                         round.skipped,
@@ -136,7 +140,7 @@ fn bare(rate_hz: f64, options: &Options) -> Result<Round> {
     let (period_ns, periods) = grid(rate_hz, options);
     let cpu = options.cpu;
     let thread = std::thread::Builder::new().name("bare_loop".to_owned()).spawn(move || {
-        Scheduling::request(PRIORITY, cpu);
+        let fifo = Scheduling::request(PRIORITY, cpu).is_fifo();
         let mut lateness_us = touched(periods);
         let mut skipped = 0;
         let mut deadline_ns = monotonic_ns() + period_ns;
@@ -144,14 +148,14 @@ fn bare(rate_hz: f64, options: &Options) -> Result<Round> {
             sleep_until(deadline_ns);
             let late_ns = monotonic_ns().saturating_sub(deadline_ns);
             lateness_us.push(us(late_ns));
-            let left_out = late_ns / period_ns;
+            let (next_ns, left_out) = next_deadline(deadline_ns, period_ns, monotonic_ns());
             skipped += left_out;
-            deadline_ns += period_ns * (1 + left_out);
+            deadline_ns = next_ns;
         }
-        (lateness_us, skipped)
+        (lateness_us, skipped, fifo)
     })?;
-    let (lateness_us, skipped) = thread.join().map_err(|_| anyhow!("the bare loop panicked"))?;
-    Ok(Round { lateness_us, work_us: Vec::new(), largest_step_n: 0.0, in_contact: 0, skipped })
+    let (lateness_us, skipped, fifo) = thread.join().map_err(|_| anyhow!("the bare loop panicked"))?;
+    Ok(Round { lateness_us, work_us: Vec::new(), largest_step_n: 0.0, in_contact: 0, skipped, fifo })
 }
 
 /// The motor loop in a session.
@@ -189,7 +193,7 @@ fn motor(rate_hz: f64, options: &Options, law: &Arc<ContactLaw>) -> Result<Round
             motor.send_law(floor(sample.stamp_ns, law));
         }
     }
-    let counts = motor.counts();
+    let (counts, fifo) = (motor.counts(), motor.scheduling().is_fifo());
     motor.stop()?;
     ensure!(counts.lost_samples == 0, "{} samples were lost", counts.lost_samples);
     let slew_n = SafetySettings::default().slew_n_per_s / rate_hz;
@@ -197,7 +201,7 @@ fn motor(rate_hz: f64, options: &Options, law: &Arc<ContactLaw>) -> Result<Round
         largest_step_n <= slew_n * (1.0 + 1e-9),
         "a step of {largest_step_n} N, the slew limit is {slew_n} N"
     );
-    Ok(Round { lateness_us, work_us, largest_step_n, in_contact, skipped: counts.skipped_ticks })
+    Ok(Round { lateness_us, work_us, largest_step_n, in_contact, skipped: counts.skipped_ticks, fifo })
 }
 
 fn us(ns: u64) -> f64 {
