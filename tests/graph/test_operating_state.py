@@ -16,8 +16,8 @@ SERVO = {**CALM, "device.force_source": "servo_cf"}
 # The table of the CRTK documentation; None: not accepted, and the state stays.
 TABLE = {
     "DISABLED": {"enable": "ENABLED", "disable": "DISABLED", "pause": None, "resume": None, "home": None, "unhome": None},
-    "ENABLED": {"enable": "ENABLED", "disable": "DISABLED", "pause": "PAUSED", "resume": None, "home": "ENABLED"},
-    "PAUSED": {"enable": None, "disable": "DISABLED", "pause": "PAUSED", "resume": "ENABLED", "home": "PAUSED"},
+    "ENABLED": {"enable": "ENABLED", "disable": "DISABLED", "pause": "PAUSED", "resume": None, "home": "ENABLED", "unhome": None},
+    "PAUSED": {"enable": None, "disable": "DISABLED", "pause": "PAUSED", "resume": "ENABLED", "home": "PAUSED", "unhome": None},
     "FAULT": {"enable": "ENABLED", "disable": "DISABLED", "pause": None, "resume": None, "home": None, "unhome": None},
 }
 

@@ -88,6 +88,7 @@ pub struct MotorLoop {
     shared: Arc<Shared>,
     scheduling: Scheduling,
     description: Description,
+    enabled: Option<Answer>,
     // Joined in drop, before the senders go: the thread must not be the one that frees what they have sent.
     thread: Option<JoinHandle<Result<(), DeviceError>>>,
 }
@@ -129,10 +130,11 @@ impl MotorLoop {
             shared,
             scheduling,
             description,
+            enabled: None,
             thread: Some(thread),
         };
         if enable_at_start {
-            motor.request(Request::State(StateCommand::Enable));
+            motor.enabled = Some(motor.request(Request::State(StateCommand::Enable)));
         }
         Ok(motor)
     }
@@ -145,6 +147,12 @@ impl MotorLoop {
     /// How the operating system runs the loop.
     pub fn scheduling(&self) -> &Scheduling {
         &self.scheduling
+    }
+
+    /// What came of [`MotorSettings::enable_at_start`]; none when it is off. Anything but [`Answer::Accepted`] leaves the
+    /// motors off until a command.
+    pub fn enabled_at_start(&self) -> Option<Answer> {
+        self.enabled
     }
 
     /// Hands over a contact law. The newest one wins.

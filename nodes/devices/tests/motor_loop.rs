@@ -236,6 +236,7 @@ fn the_loop_answers_with_the_laws_force_and_never_calls_the_allocator() {
         }
     }
     assert!(motor.is_running());
+    assert_eq!(motor.enabled_at_start(), Some(Answer::Accepted(OperatingState::Enabled)));
     motor.stop().unwrap();
     assert_eq!(ALLOCATOR_CALLS.load(SeqCst) - before, 0, "allocations or frees in the motor loop's thread");
 

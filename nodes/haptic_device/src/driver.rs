@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
 use devices::{
-    Backend, Device, DeviceError, MotorError, MotorLoop, MotorSettings, SampleSender, Scheduling, samples,
+    Answer, Backend, Device, DeviceError, MotorError, MotorLoop, MotorSettings, SampleSender, Scheduling,
+    samples,
 };
 use node_kit::NodeKit;
 use scene::{Scene, Value};
@@ -67,7 +68,7 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
         _ => None,
     };
     only_lower_max_force(kit, scene.device.max_force_n);
-    let report = OperatingReport::new(&shared.description, &settings.safety);
+    let report = OperatingReport::new(&shared.description, &settings.safety, settings.source);
     report.warn(kit.log());
     wait_for_readers(kit, &outbox, scene.device.wait_for_readers);
 
@@ -76,6 +77,7 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
         .context("the publisher thread did not start")?;
     let motor = start_motor(device, backend, settings, sender)?;
     tell_scheduling(kit, motor.scheduling());
+    tell_start(kit, &motor);
     let Shared { description, frames, .. } = &shared;
     kit.ready(&format!(
         "{} ({}) at {} Hz in frame {}",
@@ -214,6 +216,16 @@ fn start_motor(
 fn tell_scheduling(kit: &NodeKit, scheduling: &Scheduling) {
     let text = format!("motor loop: {scheduling}");
     if scheduling.is_granted() { kit.log().info(&text) } else { kit.log().warn(&text) }
+}
+
+/// Motors that did not go on at the start, although they should have.
+fn tell_start(kit: &NodeKit, motor: &MotorLoop) {
+    let why = match motor.enabled_at_start() {
+        None | Some(Answer::Accepted(_)) => return,
+        Some(Answer::Refused(state)) => format!("the operating state is {state}"),
+        Some(Answer::Unanswered) => "the motor loop did not answer within 100 ms".to_owned(),
+    };
+    kit.log().warn(&format!("device.enable_at_start: the motors are off, because {why}; command enable"));
 }
 
 /// Sets the gravity compensation; false for a device that has none.

@@ -1,6 +1,6 @@
 //! The diagnostics of the operating state: what the motors may do, why they may not, and what the device says of itself.
 
-use devices::{CheckedSettings, Description, ForceOrigin, MotorStatus, OperatingState, Sample};
+use devices::{CheckedSettings, Description, ForceOrigin, ForceSource, MotorStatus, OperatingState, Sample};
 use node_kit::{Level, Log, Status};
 
 /// What does not change while the device is open.
@@ -13,7 +13,11 @@ pub(crate) struct OperatingReport {
 }
 
 impl OperatingReport {
-    pub(crate) fn new(description: &Description, safety: &CheckedSettings) -> OperatingReport {
+    pub(crate) fn new(
+        description: &Description,
+        safety: &CheckedSettings,
+        followed: ForceSource,
+    ) -> OperatingReport {
         let watchdog = match description.watchdog {
             Some(time) => format!("{:.1}", time.as_secs_f64() * 1e3),
             None => "none".to_owned(),
@@ -28,6 +32,7 @@ impl OperatingReport {
                 ("device_max_force_n", limit(description.limits.max_force_n)),
                 ("device_max_torque_n_m", limit(description.limits.max_torque_n_m)),
                 ("device_watchdog_ms", watchdog),
+                ("passivity", passivity(safety, followed).to_owned()),
             ],
             status_names: description.status_names,
             unsafe_settings: safety.unsafe_settings().to_vec(),
@@ -91,6 +96,18 @@ fn unwatched(description: &Description) -> Option<String> {
     })
 }
 
+/// On what the passivity controller acts.
+fn passivity(safety: &CheckedSettings, followed: ForceSource) -> &'static str {
+    match (safety.passivity, safety.servo_passivity, followed) {
+        (false, ..) => "off",
+        (true, true, _) => "on",
+        (true, false, ForceSource::ContactLaw) => "on for the contact law and hold, off for servo_cf",
+        (true, false, ForceSource::ServoForce) => {
+            "off for servo_cf, which the motors follow: its client may give the hand energy, unless safety.servo_passivity is set"
+        }
+    }
+}
+
 fn source(origin: ForceOrigin) -> &'static str {
     match origin {
         ForceOrigin::Nobody => "nobody",
@@ -121,7 +138,7 @@ mod tests {
             watchdog: None,
             status_names: &["power"],
         };
-        OperatingReport::new(&description, &safety.checked(1000.0, &names).unwrap())
+        OperatingReport::new(&description, &safety.checked(1000.0, &names).unwrap(), ForceSource::ServoForce)
     }
 
     fn text(report: &OperatingReport, operating: OperatingState, fault: Option<FaultCause>) -> String {
