@@ -166,23 +166,29 @@ MODEL_STANDS_STILL = [
 MODEL_ENDS = [died("model", signal.SIGKILL), died("model", signal.SIGABRT), died("model", signal.SIGTERM)]
 
 
-def listening(arm):
-    """Starts who only listens when it is needed, and again after it died."""
+def listener(executable, what, arm):
+    """Breaks who only listens. Starts it when it is needed, and again after it died."""
 
     def arm_it(rig):
-        program = getattr(rig, "visualization", None)
+        program = getattr(rig, executable, None)
         if program is None or program.process.poll() is not None:
-            rig.visualization = rig.start("visualization")
-        return arm(rig)
+            setattr(rig, executable, rig.start(executable))
+        return arm(executable)(rig)
 
-    return arm_it
+    return Fault({"bag_replay": "recorder"}.get(executable, executable), what, arm_it, "never")
+
+
+def sent(number):
+    return lambda part: send(part, number)
 
 
 BYSTANDERS = [
-    Fault("visualization", "SIGKILL", listening(send("visualization", signal.SIGKILL)), "never"),
-    Fault("visualization", "SIGABRT", listening(send("visualization", signal.SIGABRT)), "never"),
-    Fault("visualization", "SIGSTOP", listening(stop("visualization")), "never"),
-    Fault("visualization", "its thread hangs", listening(hang("visualization")), "never"),
+    listener("visualization", "SIGKILL", sent(signal.SIGKILL)),
+    listener("visualization", "SIGABRT", sent(signal.SIGABRT)),
+    listener("visualization", "SIGSTOP", stop),
+    listener("visualization", "its thread hangs", hang),
+    listener("bag_replay", "SIGKILL", sent(signal.SIGKILL)),
+    listener("bag_replay", "SIGSTOP", stop),
 ]
 
 
@@ -194,8 +200,8 @@ class Change:
     change_n: float
 
 
-def stand_by(rig, fault, seconds=0.5):
-    """Breaks somebody who has no part in the force, and watches it."""
+def stand_by(rig, fault, seconds=5.0):
+    """Breaks somebody who has no part in the force, and watches it: for longer than queues take to fill."""
     rig.wait_pressing()
     strike, end = fault.arm(rig)
     force_n = rig.wait_pressing()

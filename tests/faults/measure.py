@@ -33,16 +33,16 @@ COLUMNS = "backend,force_source,rules,part,fault,run,force_n,zero_ms,event,step_
 def plan(runs):
     """What is measured: backend, source of force, rules, faults, runs of each."""
     some, few = max(1, runs // 8), max(1, runs // 100)
+    # Listeners are watched for seconds; with the rules as shipped the hand has to withdraw, and the force takes 2 s.
     stands_still = faults.DRIVER_STANDS_STILL
     stale = [*faults.DRIVER_IN_PARTS, *faults.MODEL_STANDS_STILL]
     ends = [*faults.DRIVER_ENDS, *faults.DRIVER_PANICS]
     yield "serial", CONTACT_LAW, QUICK, [*stands_still, *stale], runs
     yield "serial", SERVO_CF, QUICK, stale, runs
-    # A process has to be started again after each run.
-    yield "serial", CONTACT_LAW, QUICK, [*ends, *faults.MODEL_ENDS], some
-    yield "serial", SERVO_CF, QUICK, faults.MODEL_ENDS[:1], some
+    yield "serial", CONTACT_LAW, QUICK, [*ends, *faults.MODEL_ENDS], runs
+    yield "serial", SERVO_CF, QUICK, faults.MODEL_ENDS[:1], runs
     for backend in ("force_dimension", "haply"):
-        yield backend, CONTACT_LAW, QUICK, stands_still, some
+        yield backend, CONTACT_LAW, QUICK, stands_still, runs
     yield "serial", CONTACT_LAW, QUICK, faults.BYSTANDERS, some
     yield "serial", CONTACT_LAW, DEFAULT, [*stands_still, *stale, *ends, *faults.MODEL_ENDS], few
 
@@ -123,7 +123,7 @@ def in_words(results):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--runs", type=int, default=100, help="of each fault; of what takes long an eighth, with all rules a hundredth")
+    parser.add_argument("--runs", type=int, default=100, help="of each fault; of those who only listen an eighth, with all rules as shipped a hundredth")
     parser.add_argument("--csv", type=Path, required=True)
     parser.add_argument("--only", default="", help="only rows that contain this: backend, source, rules, part: fault")
     parser.add_argument("--programs", type=Path, help="folder of the executables")

@@ -108,7 +108,8 @@ class Rig:
 
     def start(self, executable):
         """Another process of the session, in a folder of its own."""
-        program = Program(self.folder / str(next(self.numbers)), executable, self.values)
+        folder = self.folder / str(next(self.numbers))
+        program = Program(folder, executable, {**self.values, "recording.directory": str(folder / "recordings")})
         self.programs.append(program)
         try:
             return program.wait_ready()

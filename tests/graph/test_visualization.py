@@ -419,6 +419,12 @@ def test_looks_can_be_changed_while_the_node_runs(start):
     assert viewer.count("body") == count, "rate 0 publishes none"
 
 
+def test_a_viewer_hears_without_shared_memory_which_a_stopped_one_would_fill(start):
+    process = start().program.process
+    assert "fastrtps" not in Path(f"/proc/{process.pid}/maps").read_text().replace("libfastrtps", "")
+    assert "visualization" in Path(f"/proc/{process.pid}/comm").read_text()
+
+
 def test_sigint_ends_the_node_with_a_report(start):
     session = start()
     session.publish("body_mesh", mesh_message(VERTICES, TRIANGLES), LATCHED)

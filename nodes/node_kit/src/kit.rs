@@ -194,6 +194,22 @@ impl NodeKit {
         self.subscribe_with(topic, sub_namespace, topic.qos().keep_last(1))
     }
 
+    /// [`subscribe_newest`](NodeKit::subscribe_newest) for what comes many times a second and is only looked at: best
+    /// effort, so its writer owes a reader that is slow, or gone, nothing.
+    ///
+    /// # Errors
+    /// rcl refuses, for instance because the name is none.
+    pub fn subscribe_passing<M>(
+        &mut self,
+        topic: &Topic<M>,
+        sub_namespace: &str,
+    ) -> Result<Inbox<M>, StartError>
+    where
+        M: WrappedTypesupport + Send + 'static,
+    {
+        self.subscribe_with(topic, sub_namespace, topic.qos().keep_last(1).best_effort())
+    }
+
     fn subscribe_with<M>(
         &mut self,
         topic: &Topic<M>,

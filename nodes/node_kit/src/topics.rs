@@ -49,7 +49,7 @@ impl<M> Topic<M> {
         }
     }
 
-    /// Quality of service, the same for publishers and subscriptions.
+    /// Quality of service, the same for publishers and for subscriptions that answer or record.
     pub fn qos(&self) -> QosProfile {
         self.qos.clone()
     }

@@ -65,9 +65,9 @@ impl Inputs {
             .iter()
             .map(|device| {
                 Ok(DeviceInputs {
-                    contact: Newest::new(kit.subscribe_newest(&topics::CONTACT_STATE, device)?),
-                    force: Newest::new(kit.subscribe_newest(&topics::SERVO_CF, device)?),
-                    pose: Newest::new(kit.subscribe_newest(&topics::MEASURED_CP, device)?),
+                    contact: Newest::new(kit.subscribe_passing(&topics::CONTACT_STATE, device)?),
+                    force: Newest::new(kit.subscribe_passing(&topics::SERVO_CF, device)?),
+                    pose: Newest::new(kit.subscribe_passing(&topics::MEASURED_CP, device)?),
                     stamp_ns: 0,
                 })
             })

@@ -3,7 +3,8 @@
 //! From the topics of device and model to markers and transforms. The drawing itself is plain data and knows nothing of
 //! ROS: what is known ([`surface`], [`device_view`]), how it looks ([`drawing`], [`rhombi`], [`colour`]), what the
 //! readers do not have yet ([`picture`], [`outbox`]). Around it stand the topics in ([`inputs`]), the messages out
-//! ([`messages`], [`transforms`]), the pages for browsers ([`viewer`]) and the loop ([`node`]).
+//! ([`messages`], [`transforms`]), the pages for browsers ([`viewer`]) and the loop ([`node`]). Before all that, the way
+//! by which it hears ([`transport`]).
 
 mod colour;
 mod device_view;
@@ -17,9 +18,11 @@ mod picture;
 mod rhombi;
 mod surface;
 mod transforms;
+mod transport;
 #[cfg_attr(not(feature = "viewer"), path = "viewer/absent.rs")]
 mod viewer;
 
 fn main() -> std::process::ExitCode {
+    transport::without_shared_memory();
     node_kit::run(node_kit::Node::Visualization, node::run)
 }
