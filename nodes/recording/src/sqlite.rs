@@ -7,6 +7,7 @@
 mod beside;
 mod compression;
 mod database;
+mod log;
 mod pages;
 mod query;
 mod rows;
@@ -18,6 +19,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use beside::Source;
+use compression::Measure;
 use database::{Database, Unfit};
 use pages::PageFile;
 use query::{Ids, Stop};
@@ -162,14 +164,14 @@ fn place(at: usize) -> u32 {
 fn whole(path: &Path, source: &Path, pages: &PageFile) -> Result<Opened, Failure> {
     let broken = |error: rusqlite::Error| Broken::new(error.to_string());
     let database = Database::open(source, pages.len).map_err(broken)?;
-    let schema = schema::read(&database).map_err(broken)??;
+    let schema = schema::read(&database, pages.len).map_err(broken)??;
     let with_topics = |reason: String, place| Broken { reason, topics: schema.topics.clone(), place };
     let table = database.table_with("messages", &["topic_id", "timestamp", "data"]);
     let root = table.map_err(|error| with_topics(error.to_string(), None))??.root;
     let (topics, mut index) = empty_index(&schema.topics);
     index.damage.extend(schema.damage.iter().map(|reason| Error::damaged(path, 0, reason)));
     let mut collector = Collector::new(&topics, &mut index, pages.len);
-    let parts = query::scan(&database, &mut collector)
+    let parts = query::scan(&database, &mut collector, &mut Measure::new(pages.len))
         .map_err(|Stop { id, reason }| with_topics(reason, Some((root, id))))?;
     let refused = collector.finish();
     index.damage.extend(
@@ -196,8 +198,9 @@ fn salvaged(path: &Path, pages: &PageFile, broken: Broken) -> Result<Opened, Str
     let broken_page = |id| place.map(|(root, _)| pages.page_of(root, id));
     let offset = place.and_then(|(_, id)| broken_page(id)).map_or(0, |page| pages.offset(page));
     index.damage.push(Error::damaged(path, offset, format!("{reason}; what other pages hold is read")));
+    index.damage.extend(found.damage.iter().map(|reason| Error::damaged(path, 0, reason)));
     let mut collector = Collector::new(&topics, &mut index, pages.len);
-    let (parts, gaps) = found.leaves.scan(pages, &mut collector);
+    let (parts, gaps) = found.leaves.scan(pages, &mut collector, &mut Measure::new(pages.len));
     let refused = collector.finish();
     let damaged = |page, reason| Error::damaged(path, pages.offset(page), reason);
     index.damage.extend(refused.into_iter().map(|(id, reason)| damaged(found.leaves.page_of(id), reason)));

@@ -3,7 +3,7 @@
 
 mod database;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use database::*;
@@ -235,7 +235,159 @@ fn a_journal_left_behind_is_said_and_never_rolled_back() {
 fn a_log_that_is_none_is_said_and_the_database_read() {
     let (_directory, path) = recording();
     std::fs::write(path.with_extension("db3-wal"), [0xd9; 6000]).unwrap();
-    assert_eq!(read(&path).0, without(&[]));
+    let (numbers, said) = read(&path);
+    assert_eq!(numbers, without(&[]));
+    assert!(said.len() == 1 && said[0].contains("a.db3-wal") && said[0].contains("6000 bytes"), "{said:?}");
+}
+
+/// Messages that are in the database and those that are in its log alone, one transaction each.
+const MERGED: i64 = 100;
+const LOGGED: i64 = 200;
+/// Of a log, and of a frame in it in front of its page.
+const LOG_HEAD: usize = 32;
+const FRAME_HEAD: usize = 24;
+
+/// A recording as a recorder leaves it that was killed: database and log.
+fn killed() -> (TempDir, PathBuf, PathBuf) {
+    let directory = tempfile::tempdir().unwrap();
+    let (path, log) = (directory.path().join("a.db3"), directory.path().join("a.db3-wal"));
+    std::fs::write(&path, &KILLED.0).unwrap();
+    std::fs::write(&log, &KILLED.1).unwrap();
+    (directory, path, log)
+}
+
+static KILLED: LazyLock<(Vec<u8>, Vec<u8>)> = LazyLock::new(|| {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("a.db3");
+    let database = tables(&path, 4);
+    database.query_row("PRAGMA journal_mode = WAL", [], |_| Ok(())).unwrap();
+    database.query_row("PRAGMA wal_autocheckpoint = 0", [], |_| Ok(())).unwrap();
+    add(&database, 0..MERGED, SIZE);
+    database.query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(())).unwrap();
+    for number in MERGED..MERGED + LOGGED {
+        add(&database, number..number + 1, SIZE);
+    }
+    (std::fs::read(&path).unwrap(), std::fs::read(path.with_extension("db3-wal")).unwrap())
+});
+
+/// A copy of database and log while both are open.
+fn left_behind(path: &Path) -> (TempDir, PathBuf, PathBuf) {
+    let directory = tempfile::tempdir().unwrap();
+    let (database, log) = (directory.path().join("a.db3"), directory.path().join("a.db3-wal"));
+    std::fs::copy(path, &database).unwrap();
+    std::fs::copy(path.with_extension("db3-wal"), &log).unwrap();
+    (directory, database, log)
+}
+
+fn flip(path: &Path, at: usize) {
+    change(path, |bytes| bytes[at] ^= 1);
+}
+
+#[test]
+fn one_bit_of_a_log_costs_no_message_that_another_page_of_it_has_and_is_said() {
+    let (_directory, path, log) = killed();
+    let all: Vec<i64> = (0..MERGED + LOGGED).collect();
+    assert_eq!(read(&path), (all.clone(), vec![]));
+    let frame = FRAME_HEAD + PAGE;
+    for (what, at, words) in [
+        ("a page", LOG_HEAD + 2 * frame + FRAME_HEAD + 100, "broken pages in the log: 1, 4120 bytes"),
+        ("the checksum of a page", LOG_HEAD + 5 * frame + 16, "broken pages in the log: 1, 4120 bytes"),
+        ("the number of a page", LOG_HEAD + 7 * frame + 3, "broken pages in the log: 1, 4120 bytes"),
+        ("the salt of a page", LOG_HEAD + 9 * frame + 8, "broken heads in the log: 1"),
+        ("the salt of the log", 17, "broken heads in the log: 1"),
+        ("the magic of the log", 0, "broken heads in the log: 1"),
+        ("the order of bytes", 3, "broken heads in the log: 1"),
+        ("the size of a page", 10, "broken heads in the log: 1"),
+    ] {
+        flip(&log, at);
+        let (numbers, said) = read(&path);
+        assert_eq!(numbers, all, "{what}: {said:?}");
+        assert!(
+            said.len() == 1 && said[0].contains("a.db3-wal") && said[0].contains(words),
+            "{what}: {said:?}"
+        );
+        flip(&log, at);
+    }
+}
+
+#[test]
+fn a_broken_page_that_no_other_one_repeats_costs_its_messages_and_is_said() {
+    let (_directory, path, log) = killed();
+    // The last transaction of all.
+    change(&log, |bytes| {
+        let end = bytes.len();
+        bytes[end - 100] ^= 1;
+    });
+    let (numbers, said) = read(&path);
+    assert!(numbers.len() as i64 >= MERGED + LOGGED - 1, "{}", numbers.len());
+    assert!(said[0].contains("broken pages in the log: 1"), "{said:?}");
+}
+
+#[test]
+fn what_an_older_log_left_behind_is_normal_and_an_unfinished_transaction_is_said() {
+    let live = tempfile::tempdir().unwrap();
+    let path = live.path().join("a.db3");
+    let database = tables(&path, 4);
+    database.query_row("PRAGMA journal_mode = WAL", [], |_| Ok(())).unwrap();
+    add(&database, 0..MERGED + LOGGED, SIZE);
+    // The log begins anew and keeps its length.
+    database.query_row("PRAGMA wal_checkpoint(RESTART)", [], |_| Ok(())).unwrap();
+    add(&database, MERGED + LOGGED..MERGED + LOGGED + 1, SIZE);
+    let (_directory, path, log) = left_behind(&path);
+    assert_eq!(read(&path), ((0..=MERGED + LOGGED).collect(), vec![]));
+    drop(database);
+
+    let (_directory, path, cut) = killed();
+    assert!(std::fs::metadata(&log).unwrap().len() > 5 * PAGE as u64, "there is something left behind");
+    change(&cut, |bytes| bytes.truncate(bytes.len() - 10));
+    let (numbers, said) = read(&path);
+    assert_eq!(numbers, (0..MERGED + LOGGED - 1).collect::<Vec<_>>());
+    assert!(said.len() == 1 && said[0].contains("bytes at its end are not used"), "{said:?}");
+}
+
+#[test]
+fn messages_that_do_not_say_how_large_they_are_count_with_what_they_take() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("a.db3");
+    let database = tables(&path, 4);
+    // As streams are compressed: nobody knew the size when the head was written.
+    let unsaid = |bytes: &[u8]| zstd::stream::encode_all(bytes, 1).unwrap();
+    let mut insert =
+        database.prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES (1, ?1, ?2)").unwrap();
+    for number in 0..5000 {
+        let frame = unsaid(&data(number, SIZE));
+        insert.execute(rusqlite::params![START_NS + number, frame]).unwrap();
+    }
+    let (numbers, said) = read(&path);
+    assert_eq!((numbers, said), ((0..5000).collect(), vec![]));
+}
+
+#[test]
+fn texts_that_take_more_than_a_file_can_have_are_left_out_and_said() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("a.db3");
+    let database = tables(&path, 4);
+    add(&database, 0..10, SIZE);
+    let long = "[".repeat(300_000);
+    database.execute("UPDATE topics SET offered_qos_profiles = ?1 WHERE id = 2", [&long]).unwrap();
+    let text = "#".repeat(4_000_000);
+    database
+        .execute("INSERT INTO message_definitions VALUES (9, 'a/msg/B', 'ros2msg', ?1, '')", [&text])
+        .unwrap();
+    for id in 10..30 {
+        let row = rusqlite::params![id, format!("/{id}")];
+        database.execute("INSERT INTO topics VALUES (?1, ?2, 'a/msg/B', 'cdr', '', '')", row).unwrap();
+    }
+    let (numbers, said) = read(&path);
+    assert_eq!(numbers, (0..10).collect::<Vec<_>>());
+    assert!(said.iter().any(|said| said.contains("those of 12 topics are left out")), "{said:?}");
+    assert!(
+        said.iter().any(|said| said.contains("qualities of service") && said.contains("those of 1")),
+        "{said:?}"
+    );
+    let recording = Recording::open(&path).unwrap();
+    assert_eq!(recording.topics().len(), 22, "the topics themselves are there");
+    assert_eq!(recording.topics()[0].topic.offered_qos.len(), 1, "so are those that are not too long");
 }
 
 #[test]
@@ -288,6 +440,19 @@ proptest! {
             let missing = expected.iter().find(|number| !numbers.contains(number));
             prop_assert!(missing.is_none(), "message {missing:?} of page {page}: {said:?}");
         }
+    }
+
+    #[test]
+    fn a_flipped_byte_of_a_log_is_always_said(at in any::<Place>(), bits in 1..=255_u8) {
+        let (_directory, path, log) = killed();
+        change(&log, |bytes| {
+            let at = at.index(bytes.len());
+            bytes[at] ^= bits;
+        });
+        let (numbers, said) = read(&path);
+        prop_assert!(!said.is_empty());
+        // One broken page costs what it alone had: at most the last transaction or a page of rows.
+        prop_assert!(numbers.len() as i64 > MERGED + LOGGED - 40, "{}: {said:?}", numbers.len());
     }
 
     #[test]

@@ -6,14 +6,15 @@ use std::path::PathBuf;
 use mcap::records::op;
 
 use super::records::{self, chunks, recompressed, record, zeros_in_zstd};
-use super::{Case, Expected, whole};
+use super::{Case, Expected, hostile_database, whole};
 
 /// The size up to which a check promises its limits.
 const SIZE: usize = 10_000_000;
 
 /// What a check says of them does not matter, as long as it says it in time.
 pub fn cases() -> Vec<Case> {
-    [rows(), bombs(), texts(), metadata()].into_iter().flatten().collect()
+    let databases = hostile_database::files().into_iter().map(|(name, bytes)| file(name, bytes)).collect();
+    [rows(), bombs(), texts(), metadata(), databases].into_iter().flatten().collect()
 }
 
 fn file(name: &'static str, bytes: Vec<u8>) -> Case {

@@ -8,6 +8,7 @@
 pub mod content;
 pub mod directory;
 pub mod hostile;
+pub mod hostile_database;
 pub mod mcap_file;
 pub mod records;
 pub mod sqlite_file;

@@ -1,5 +1,7 @@
 //! SQLite databases with broken pages, and databases that are no recordings.
 
+use std::path::PathBuf;
+
 use recording::cdr::{Message, encode};
 use recording::messages::PoseStamped;
 use rusqlite::{Connection, params};
@@ -64,29 +66,79 @@ pub fn cases() -> Vec<Case> {
         ),
         file("garbage_first_page.db3", Damaged, &["magic"], COUNT, with_garbage(&[0])),
         file("cut.db3", Damaged, &["cut.db3"], COUNT / 3, whole[..whole.len() / 2 + 100].to_vec()),
+        logged("log_flipped", Damaged, &["log_0.db3-wal", "broken pages in the log: 1"], COUNT, |log| {
+            log[LOG_FRAMES + FRAME + 200] ^= 1;
+        }),
+        logged("log_head_flipped", Damaged, &["broken heads in the log: 1"], COUNT, |log| log[17] ^= 1),
+        logged("log_of_garbage", Damaged, &["log is broken", "bytes"], COUNT / 2, |log| {
+            (0..).zip(log.iter_mut()).for_each(|(at, byte): (usize, &mut u8)| *byte = (at * at >> 3) as u8);
+        }),
+        logged("log_of_a_killed_recorder", Damaged, &["metadata.yaml"], COUNT, |_| {}),
         file("other_tables.db3", Unreadable, &["other_tables.db3"], 0, other_tables),
     ]
 }
 
+/// Where the frames of a write-ahead log begin, and the size of one.
+const LOG_FRAMES: usize = 32;
+const FRAME: usize = 24 + PAGE;
+
+/// A directory whose recorder was killed: half of the poses are in the write-ahead log alone, which `change` breaks.
+fn logged(
+    name: &'static str,
+    expected: Expected,
+    words: &'static [&'static str],
+    readable: u64,
+    change: impl FnOnce(&mut [u8]),
+) -> Case {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("log_0.db3");
+    let connection = Connection::open(&path).unwrap();
+    connection.execute_batch(&format!("PRAGMA page_size = {PAGE}")).unwrap();
+    connection.query_row("PRAGMA journal_mode = WAL", [], |_| Ok(())).unwrap();
+    connection.query_row("PRAGMA wal_autocheckpoint = 0", [], |_| Ok(())).unwrap();
+    connection.execute_batch("BEGIN").unwrap();
+    fill(&connection, COUNT / 2);
+    connection.execute_batch("COMMIT").unwrap();
+    connection.query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(())).unwrap();
+    let mut insert =
+        connection.prepare("INSERT INTO messages (topic_id, timestamp, data) VALUES (1, ?1, ?2)").unwrap();
+    // A transaction for each, so that the last page of the table is in the log again and again.
+    for number in COUNT / 2..COUNT {
+        insert.execute(params![log_time_ns(number) as i64, encode(&pose(number))]).unwrap();
+    }
+    let database = std::fs::read(&path).unwrap();
+    let mut log = std::fs::read(path.with_extension("db3-wal")).unwrap();
+    change(&mut log);
+    Case {
+        name,
+        expected,
+        words,
+        readable,
+        files: vec![(PathBuf::from("log_0.db3"), database), (PathBuf::from("log_0.db3-wal"), log)],
+    }
+}
+
 /// A database of poses.
 pub fn database(count: u64) -> Vec<u8> {
-    saved(|connection| {
-        connection.execute_batch(TABLES).unwrap();
-        let topic = "INSERT INTO topics VALUES (1, '/measured_cp', ?1, 'cdr', '', 'RIHS01_0f')";
-        connection.execute(topic, [PoseStamped::TYPE_NAME]).unwrap();
-        let definition = "INSERT INTO message_definitions VALUES (1, ?1, 'ros2msg', ?2, 'RIHS01_0f')";
-        connection.execute(definition, [PoseStamped::TYPE_NAME, POSE_TEXT]).unwrap();
-        let mut insert = connection
-            .prepare("INSERT INTO messages (topic_id, timestamp, data) VALUES (1, ?1, ?2)")
-            .unwrap();
-        for number in 0..count {
-            insert.execute(params![log_time_ns(number) as i64, encode(&pose(number))]).unwrap();
-        }
-    })
+    saved(|connection| fill(connection, count))
+}
+
+/// Tables, a topic and its poses.
+pub fn fill(connection: &Connection, count: u64) {
+    connection.execute_batch(TABLES).unwrap();
+    let topic = "INSERT INTO topics VALUES (1, '/measured_cp', ?1, 'cdr', '', 'RIHS01_0f')";
+    connection.execute(topic, [PoseStamped::TYPE_NAME]).unwrap();
+    let definition = "INSERT INTO message_definitions VALUES (1, ?1, 'ros2msg', ?2, 'RIHS01_0f')";
+    connection.execute(definition, [PoseStamped::TYPE_NAME, POSE_TEXT]).unwrap();
+    let mut insert =
+        connection.prepare("INSERT INTO messages (topic_id, timestamp, data) VALUES (1, ?1, ?2)").unwrap();
+    for number in 0..count {
+        insert.execute(params![log_time_ns(number) as i64, encode(&pose(number))]).unwrap();
+    }
 }
 
 /// The bytes of a database that `fill` fills.
-fn saved(fill: impl FnOnce(&Connection)) -> Vec<u8> {
+pub fn saved(fill: impl FnOnce(&Connection)) -> Vec<u8> {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("made.db3");
     let connection = Connection::open(&path).unwrap();

@@ -1,7 +1,8 @@
 //! What lies beside a database: the log of a recorder that still runs, or that was stopped before it tidied up.
 //!
 //! With a write-ahead log (`NAME.db3-wal`) part of the recording is in the log alone. Reading it in place would make
-//! files in the recording's directory, so that database and log are copied to a temporary directory and joined there.
+//! files in the recording's directory, so that database and log are copied to a temporary directory and joined there: by
+//! SQLite where the log is whole, else without it, so that what is broken costs itself and nothing behind it.
 
 use std::ffi::OsString;
 use std::fs::File;
@@ -12,10 +13,9 @@ use std::time::SystemTime;
 use rusqlite::{Connection, OpenFlags};
 use tempfile::TempDir;
 
+use super::log::{self, Log};
 use crate::error::Error;
 
-/// Head of a write-ahead log; shorter ones hold nothing.
-const LOG_HEAD: usize = 32;
 /// How often copying begins again when the recorder wrote in between.
 const ATTEMPTS: usize = 5;
 
@@ -32,9 +32,13 @@ pub(super) struct Source {
 pub(super) fn source(path: &Path) -> Result<Source, Error> {
     let as_it_is = |damage| Source { path: path.to_owned(), _copy: None, damage };
     let log = beside(path, "-wal");
-    if size(&log) > LOG_HEAD as u64 {
+    // Shorter ones hold nothing.
+    if size(&log) > log::HEAD {
         return match joined(path, &log)? {
-            Ok((copy, joined)) => Ok(Source { path: joined, _copy: Some(copy), damage: None }),
+            Ok((copy, joined, loss)) => {
+                let damage = loss.map(|loss| Error::damaged(&log, 0, loss));
+                Ok(Source { path: joined, _copy: Some(copy), damage })
+            }
             Err(reason) => Ok(as_it_is(Some(Error::damaged(&log, 0, reason)))),
         };
     }
@@ -65,25 +69,23 @@ fn is_hot(journal: &Path) -> bool {
         && magic != [0; 8]
 }
 
+/// A joined copy, and what of the log is not in it.
+type Joined = (TempDir, PathBuf, Option<String>);
+
 /// Copies database and log and writes the log into the copy. The inner error says why the log is of no use.
-fn joined(path: &Path, log: &Path) -> Result<Result<(TempDir, PathBuf), String>, Error> {
+fn joined(path: &Path, log: &Path) -> Result<Result<Joined, String>, Error> {
     let directory = TempDir::new().map_err(Error::io(&std::env::temp_dir(), "make a directory in"))?;
     let copy = directory.path().join("copy.db3");
+    let log_copy = beside(&copy, "-wal");
     for _ in 0..ATTEMPTS {
         let before = state(path, log)?;
         std::fs::copy(path, &copy).map_err(Error::io(path, "copy to the temporary directory"))?;
-        std::fs::copy(log, beside(&copy, "-wal"))
-            .map_err(Error::io(log, "copy to the temporary directory"))?;
+        std::fs::copy(log, &log_copy).map_err(Error::io(log, "copy to the temporary directory"))?;
         // A log that only grew is whole up to some transaction; a database that changed belongs to another log.
         if state(path, log)? == before {
-            // A log can claim pages far behind its end, which would make a file of terabytes.
-            let most = size(path) + size(log);
-            return Ok(match write_log_into(&copy) {
-                Ok(()) if size(&copy) <= most => Ok((directory, copy)),
-                Ok(()) => {
-                    Err("the log speaks of pages that are neither in it nor in the database".to_owned())
-                }
-                Err(error) => Err(format!("the log cannot be joined with the database: {error}")),
+            return Ok(match join(&copy, &log_copy).map_err(Error::io(log, "read"))? {
+                Ok(loss) => Ok((directory, copy, loss)),
+                Err(reason) => Err(reason),
             });
         }
     }
@@ -92,12 +94,32 @@ fn joined(path: &Path, log: &Path) -> Result<Result<(TempDir, PathBuf), String>,
     ))
 }
 
+/// Writes a log into its database. What of it is not used comes back; the inner error says why nothing is.
+fn join(copy: &Path, log_path: &Path) -> std::io::Result<Result<Option<String>, String>> {
+    let log = Log::read(log_path, copy)?;
+    let len = size(log_path);
+    let loss = log.loss(len);
+    if !log.has_pages() {
+        return Ok(loss.map_or(Ok(None), Err));
+    }
+    // A log can claim pages far behind its end, which would make a file of terabytes.
+    if log.size_after() > size(copy) + len {
+        return Ok(Err("the log speaks of pages that are neither in it nor in the database".to_owned()));
+    }
+    if !log.is_whole() {
+        log.write_into(log_path, copy)?;
+        return Ok(Ok(loss));
+    }
+    let written = write_log_into(copy);
+    Ok(written.map(|()| loss).map_err(|error| format!("the log cannot be joined with the database: {error}")))
+}
+
 /// What changes when the log is written into the database.
 fn state(path: &Path, log: &Path) -> Result<(u64, Option<SystemTime>, Vec<u8>), Error> {
     let metadata = path.metadata().map_err(Error::io(path, "read"))?;
     let mut head = Vec::new();
     let file = File::open(log).map_err(Error::io(log, "open"))?;
-    file.take(LOG_HEAD as u64).read_to_end(&mut head).map_err(Error::io(log, "read"))?;
+    file.take(log::HEAD).read_to_end(&mut head).map_err(Error::io(log, "read"))?;
     Ok((metadata.len(), metadata.modified().ok(), head))
 }
 

@@ -5,7 +5,7 @@
 use std::io::Read;
 
 use crate::block::MAX_BLOCK_BYTES;
-use crate::compression::WINDOW_LOG;
+use crate::compression::{WINDOW_LOG, allowance};
 
 const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// The longest head of a frame, bytes.
@@ -15,17 +15,39 @@ pub(super) fn is_compressed(data: &[u8]) -> bool {
     data.starts_with(&MAGIC)
 }
 
-/// How many bytes a message takes in memory, from its first [`HEAD`] bytes and its size in the file. A frame that does not
-/// say is taken for the largest one.
-pub(super) fn size_in_memory(head: &[u8], stored: u64) -> u64 {
+/// How many bytes a message takes in memory, from its first [`HEAD`] bytes and its size in the file; `None` where a frame
+/// does not say.
+pub(super) fn size_in_memory(head: &[u8], stored: u64) -> Option<u64> {
     if !is_compressed(head) {
-        return stored;
+        return Some(stored);
     }
-    match zstd::zstd_safe::get_frame_content_size(head) {
-        Ok(Some(size)) => size,
-        Ok(None) => MAX_BLOCK_BYTES,
-        // Said with its place when the message is read.
-        Err(_) => stored,
+    // A broken head is said with its place when the message is read.
+    zstd::zstd_safe::get_frame_content_size(head).unwrap_or(Some(stored))
+}
+
+/// Measures messages that do not say how large they are, up to a bound for all of a file.
+pub(super) struct Measure {
+    left: u64,
+}
+
+impl Measure {
+    /// For a file of this size.
+    pub(super) fn new(file_bytes: u64) -> Self {
+        Self { left: allowance(file_bytes) }
+    }
+
+    /// How many bytes a message takes in memory; [`MAX_BLOCK_BYTES`] where it is larger than that, which is said when it is
+    /// read. `None` when the bound is reached.
+    pub(super) fn size(&mut self, data: &[u8]) -> Option<u64> {
+        if self.left == 0 {
+            return None;
+        }
+        let counted = decoder(data)
+            .and_then(|decoder| std::io::copy(&mut decoder.take(MAX_BLOCK_BYTES), &mut std::io::sink()))
+            // So is what is broken.
+            .unwrap_or(data.len() as u64);
+        self.left = self.left.saturating_sub(counted);
+        Some(counted)
     }
 }
 
@@ -50,12 +72,17 @@ pub(super) fn append(data: &[u8], bytes: &mut Vec<u8>) -> Result<(), String> {
 fn decompress(data: &[u8], left: usize, bytes: &mut Vec<u8>) -> Result<(), String> {
     let begin = bytes.len();
     let not_zstd = |error: std::io::Error| format!("is compressed and cannot be decompressed: {error}");
-    let mut decoder = zstd::stream::read::Decoder::with_buffer(data).map_err(not_zstd)?;
-    decoder.window_log_max(WINDOW_LOG).map_err(not_zstd)?;
     // One byte more than allowed tells a bomb from a message that fits exactly.
-    decoder.single_frame().take(left as u64 + 1).read_to_end(bytes).map_err(not_zstd)?;
+    let decoded = decoder(data).and_then(|decoder| decoder.take(left as u64 + 1).read_to_end(bytes));
+    decoded.map_err(not_zstd)?;
     if bytes.len() - begin > left {
         return Err(format!("is {} bytes that decompress to more than {left}", data.len()));
     }
     Ok(())
+}
+
+fn decoder(data: &[u8]) -> std::io::Result<zstd::stream::read::Decoder<'_, &[u8]>> {
+    let mut decoder = zstd::stream::read::Decoder::with_buffer(data)?;
+    decoder.window_log_max(WINDOW_LOG)?;
+    Ok(decoder.single_frame())
 }

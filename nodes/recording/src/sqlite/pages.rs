@@ -20,6 +20,28 @@ const DEEPEST: usize = 20;
 const INNER: u8 = 0x05;
 const LEAF: u8 = 0x0d;
 
+/// Whether pages can have this size, bytes.
+pub(super) fn is_page_size(size: u32) -> bool {
+    (512..=1 << 16).contains(&size) && size.is_power_of_two()
+}
+
+/// The size of the pages that a database says it has; the usual one where it says nothing.
+pub(super) fn size_in(path: &Path) -> std::io::Result<usize> {
+    let mut head = [0; FILE_HEAD];
+    match File::open(path)?.read_exact_at(&mut head, 0) {
+        Err(error) if error.kind() != std::io::ErrorKind::UnexpectedEof => Err(error),
+        _ => Ok(page_size(&head).unwrap_or(USUAL_PAGE)),
+    }
+}
+
+fn page_size(head: &[u8; FILE_HEAD]) -> Option<usize> {
+    let size = match u16::from_be_bytes([head[16], head[17]]) {
+        1 => 1 << 16,
+        size => u32::from(size),
+    };
+    (head.starts_with(MAGIC) && is_page_size(size)).then_some(size as usize)
+}
+
 /// A file of pages.
 pub(super) struct PageFile {
     file: File,
@@ -71,10 +93,9 @@ impl PageFile {
         let len = file.metadata()?.len();
         let mut head = [0; FILE_HEAD];
         let has_head = file.read_exact_at(&mut head, 0).is_ok() && head.starts_with(MAGIC);
-        let (page_size, reserved) = match u16::from_be_bytes([head[16], head[17]]) {
-            1 => (1 << 16, head[20]),
-            size if has_head && size >= 512 && size.is_power_of_two() => (usize::from(size), head[20]),
-            _ => (USUAL_PAGE, 0),
+        let (page_size, reserved) = match page_size(&head) {
+            Some(size) => (size, head[20]),
+            None => (USUAL_PAGE, 0),
         };
         let usable = page_size - usize::from(reserved);
         // The format allows no less.

@@ -6,7 +6,7 @@
 use rusqlite::types::ValueRef;
 use rusqlite::{OptionalExtension, Statement, params};
 
-use super::compression;
+use super::compression::{self, Measure};
 use super::database::Database;
 use super::rows::{Collector, Row, Size, Taken};
 
@@ -21,14 +21,30 @@ pub(super) struct Stop {
 
 /// Goes through all rows without reading the messages themselves, unless they are compressed: then their heads have to be
 /// looked at. Returns the blocks' rows.
-pub(super) fn scan(database: &Database, collector: &mut Collector<'_>) -> Result<Vec<Ids>, Stop> {
+pub(super) fn scan(
+    database: &Database,
+    collector: &mut Collector<'_>,
+    measure: &mut Measure,
+) -> Result<Vec<Ids>, Stop> {
+    let stop = |error: rusqlite::Error| Stop { id: 1, reason: error.to_string() };
+    let mut with_data =
+        database.prepare("SELECT data FROM messages NOT INDEXED WHERE id = ?1").map_err(stop)?;
     let mut parts: Vec<Ids> = Vec::new();
     let mut last = None;
-    let each = |row: &Row| {
+    let each = |mut row: Row| {
         if last.replace(row.id).is_some_and(|last| last >= row.id) {
             return Some("the table of messages leads back into itself".to_owned());
         }
-        match (collector.take(row), parts.last_mut()) {
+        if collector.lacks_size(&row)
+            && let Some(size) = &mut row.data
+        {
+            let measured = |found: &rusqlite::Row<'_>| {
+                Ok(found.get_ref(0)?.as_blob().map_or(Some(0), |data| measure.size(data)))
+            };
+            // What cannot be read is said when it is loaded.
+            size.in_memory = with_data.query_row([row.id], measured).unwrap_or(Some(size.stored));
+        }
+        match (collector.take(&row), parts.last_mut()) {
             (Taken::No, _) => {}
             (Taken::Same, Some(part)) => part.1 = row.id,
             (Taken::Same, None) | (Taken::Next, _) => parts.push((row.id, row.id)),
@@ -42,7 +58,7 @@ pub(super) fn scan(database: &Database, collector: &mut Collector<'_>) -> Result
     match not_found(database, &parts) {
         Ok(None) => Ok(parts),
         Ok(Some(id)) => Err(Stop { id, reason: format!("message {id} is not where the table says") }),
-        Err(error) => Err(Stop { id: 1, reason: error.to_string() }),
+        Err(error) => Err(stop(error)),
     }
 }
 
@@ -64,7 +80,7 @@ fn not_found(database: &Database, parts: &[Ids]) -> rusqlite::Result<Option<i64>
 /// Hands each row to `each` until that says why not to go on.
 fn for_each_row(
     database: &Database,
-    mut each: impl FnMut(&Row) -> Option<String>,
+    mut each: impl FnMut(Row) -> Option<String>,
 ) -> rusqlite::Result<Option<String>> {
     let blob = "CASE typeof(data) WHEN 'blob' THEN";
     let head = match has_compressed(database) {
@@ -84,7 +100,7 @@ fn for_each_row(
         };
         let data = size.map(|stored| Size { stored, in_memory: compression::size_in_memory(head, stored) });
         let (topic_id, timestamp) = (integer(found.get_ref(1)?), integer(found.get_ref(2)?));
-        let reason = each(&Row { id: found.get(0)?, topic_id, timestamp, data });
+        let reason = each(Row { id: found.get(0)?, topic_id, timestamp, data });
         if reason.is_some() {
             return Ok(reason);
         }
@@ -143,7 +159,9 @@ fn load_from(
         }
         if let ValueRef::Blob(data) = found.get_ref(3)? {
             let stored = data.len() as u64;
-            let size = Size { stored, in_memory: compression::size_in_memory(data, stored) };
+            // One that was too large when it was measured is too large for the block as well.
+            let in_memory = compression::size_in_memory(data, stored).or(Some(stored));
+            let size = Size { stored, in_memory };
             let (topic_id, timestamp) = (integer(found.get_ref(1)?), integer(found.get_ref(2)?));
             take(&Row { id, topic_id, timestamp, data: Some(size) }, data);
         }

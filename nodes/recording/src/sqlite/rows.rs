@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::block::{Block, FileIndex, MAX_BLOCK_BYTES, Place};
+use crate::compression;
 
 /// A block is closed when it has this many bytes in memory,
 const BLOCK_BYTES: u64 = 1 << 20;
@@ -28,7 +29,8 @@ pub(super) struct Row {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Size {
     pub(super) stored: u64,
-    pub(super) in_memory: u64,
+    /// `None` where it has not been measured, or the file has more to measure than is accepted.
+    pub(super) in_memory: Option<u64>,
 }
 
 /// A row that is a message.
@@ -47,6 +49,8 @@ pub(super) enum Refusal {
     Size,
     /// Larger than the file, or behind rows that are so together.
     Claim,
+    /// Behind rows that decompress to too much together.
+    Bomb,
 }
 
 impl Refusal {
@@ -57,6 +61,7 @@ impl Refusal {
             Self::Data => "have something else than bytes as their data",
             Self::Size => "are larger than the accepted 67108864 bytes",
             Self::Claim => "claim more bytes than the file has",
+            Self::Bomb => "decompress to more than is accepted of a file of this size",
         }
     }
 }
@@ -76,7 +81,7 @@ impl Topics {
         let channel = row.topic_id.and_then(|id| self.numbers.get(&id)).copied().ok_or(Refusal::Topic)?;
         let log_time_ns = row.timestamp.and_then(|time| u64::try_from(time).ok()).ok_or(Refusal::Time)?;
         let size = row.data.ok_or(Refusal::Data)?;
-        if size.in_memory > MAX_BLOCK_BYTES || size.stored > MAX_BLOCK_BYTES {
+        if size.in_memory.ok_or(Refusal::Bomb)? > MAX_BLOCK_BYTES || size.stored > MAX_BLOCK_BYTES {
             return Err(Refusal::Size);
         }
         Ok(Accepted { channel, log_time_ns })
@@ -90,6 +95,10 @@ pub(super) struct Collector<'a> {
     len: u64,
     /// Bytes that the rows to come may claim.
     unclaimed: u64,
+    /// Bytes that they may take in memory.
+    allowance: u64,
+    /// Why no row is taken any more.
+    spent: Option<Refusal>,
     block: Unfinished,
     refused: BTreeMap<Refusal, Refused>,
 }
@@ -122,22 +131,29 @@ pub(super) enum Taken {
 impl<'a> Collector<'a> {
     /// For a file of `len` bytes.
     pub(super) fn new(topics: &'a Topics, index: &'a mut FileIndex, len: u64) -> Self {
-        let unclaimed = len.saturating_mul(CLAIMS);
-        Self { topics, index, len, unclaimed, block: Unfinished::default(), refused: BTreeMap::new() }
+        Self {
+            topics,
+            index,
+            len,
+            unclaimed: len.saturating_mul(CLAIMS),
+            allowance: compression::allowance(len),
+            spent: None,
+            block: Unfinished::default(),
+            refused: BTreeMap::new(),
+        }
+    }
+
+    /// Whether nothing but its size in memory is missing to take a row.
+    pub(super) fn lacks_size(&self, row: &Row) -> bool {
+        self.spent.is_none() && matches!(self.topics.accept(row), Err(Refusal::Bomb))
     }
 
     /// Takes the next row.
     pub(super) fn take(&mut self, row: &Row) -> Taken {
-        let accepted = self.topics.accept(row).and_then(|accepted| {
-            let stored = row.data.map_or(0, |size| size.stored);
-            if stored > self.len {
-                return Err(Refusal::Claim);
-            }
-            // When it is used up, nothing behind it is taken any more: blocks are ranges of rows.
-            let left = self.unclaimed.checked_sub(stored);
-            self.unclaimed = left.unwrap_or(0);
-            left.map(|_| accepted).ok_or(Refusal::Claim)
-        });
+        let accepted = match self.spent {
+            Some(refusal) => Err(refusal),
+            None => self.topics.accept(row).and_then(|accepted| self.afford(row).map(|()| accepted)),
+        };
         let accepted = match accepted {
             Ok(accepted) => accepted,
             Err(refusal) => {
@@ -145,7 +161,7 @@ impl<'a> Collector<'a> {
                 return Taken::No;
             }
         };
-        let bytes = row.data.map_or(0, |size| size.in_memory);
+        let bytes = row.data.and_then(|size| size.in_memory).unwrap_or(0);
         let block = &self.block;
         let is_full = block.rows == BLOCK_ROWS || (block.rows > 0 && block.bytes + bytes > BLOCK_BYTES);
         if is_full {
@@ -164,6 +180,20 @@ impl<'a> Collector<'a> {
             topic.message_count += 1;
         }
         if is_full { Taken::Next } else { Taken::Same }
+    }
+
+    /// Whether there is room left for a row. When it is used up, nothing behind it is taken any more: blocks are ranges of
+    /// rows.
+    fn afford(&mut self, row: &Row) -> Result<(), Refusal> {
+        let Size { stored, in_memory } = row.data.ok_or(Refusal::Data)?;
+        if stored > self.len {
+            return Err(Refusal::Claim);
+        }
+        let unclaimed = self.unclaimed.checked_sub(stored).ok_or(Refusal::Claim);
+        let allowance = self.allowance.checked_sub(in_memory.unwrap_or(u64::MAX)).ok_or(Refusal::Bomb);
+        self.spent = unclaimed.and(allowance).err();
+        (self.unclaimed, self.allowance) = (unclaimed?, allowance?);
+        Ok(())
     }
 
     fn close(&mut self) {
@@ -185,8 +215,10 @@ impl<'a> Collector<'a> {
             let value = match refusal {
                 Refusal::Topic => first.topic_id.map(|id| format!(" (topic_id {id})")),
                 Refusal::Time => first.timestamp.map(|time| format!(" ({time} ns)")),
-                Refusal::Size => first.data.map(|size| format!(" ({} bytes)", size.in_memory)),
-                Refusal::Data | Refusal::Claim => None,
+                Refusal::Size => {
+                    first.data.map(|size| format!(" ({} bytes)", size.in_memory.unwrap_or(size.stored)))
+                }
+                Refusal::Data | Refusal::Claim | Refusal::Bomb => None,
             };
             let Row { id, .. } = first;
             let sentence = refusal.sentence();
@@ -207,7 +239,7 @@ mod tests {
     use super::*;
 
     fn row(id: i64, stored: u64) -> Row {
-        let data = Some(Size { stored, in_memory: stored });
+        let data = Some(Size { stored, in_memory: Some(stored) });
         Row { id, topic_id: Some(7), timestamp: Some(id), data }
     }
 
@@ -221,6 +253,27 @@ mod tests {
         assert_eq!(taken as u64, len * CLAIMS / 900_000);
         let refused = collector.finish();
         assert!(refused[0].1.contains("claim more bytes than the file has: 99983,"), "{refused:?}");
+    }
+
+    #[test]
+    fn compressed_rows_end_where_they_take_more_memory_than_is_accepted_of_their_file() {
+        let topics = Topics::new([7].into_iter());
+        let mut index = FileIndex::default();
+        let len = 10_000_000;
+        let mut collector = Collector::new(&topics, &mut index, len);
+        let in_memory = 60 << 20;
+        let bomb = |id| Row { data: Some(Size { stored: 3000, in_memory: Some(in_memory) }), ..row(id, 0) };
+        let taken = (0..3000).filter(|id| collector.take(&bomb(*id)) != Taken::No).count() as u64;
+        assert_eq!(taken, compression::allowance(len) / in_memory);
+        let refused = collector.finish();
+        assert!(refused[0].1.contains("decompress to more than is accepted"), "{refused:?}");
+
+        let mut collector = Collector::new(&topics, &mut index, len);
+        let unmeasured = Row { data: Some(Size { stored: 3000, in_memory: None }), ..row(0, 0) };
+        assert!(collector.lacks_size(&unmeasured));
+        assert_eq!(collector.take(&unmeasured), Taken::No, "there is too much to measure");
+        assert!(!collector.lacks_size(&unmeasured), "nothing is measured any more");
+        assert_eq!(collector.take(&row(1, 0)), Taken::No, "blocks are ranges of rows");
     }
 
     #[test]

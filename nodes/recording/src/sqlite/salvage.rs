@@ -6,10 +6,10 @@
 
 use std::collections::BTreeMap;
 
-use super::compression;
+use super::compression::{self, Measure};
 use super::pages::{Cell, Page, PageFile, Value};
 use super::rows::{Collector, Row, Size, Taken};
-use super::schema::{TopicTexts, definition};
+use super::schema::{Budget, Describer, TopicTexts, definition};
 use crate::topic::Topic;
 
 /// Rows with messages in the order of their numbers.
@@ -51,6 +51,8 @@ pub(super) struct Found {
     pub(super) topics: BTreeMap<i64, Topic>,
     /// Rows left out because others have their numbers too.
     pub(super) repeated: u64,
+    /// What is known of topics and left out, a sentence each.
+    pub(super) damage: Vec<String>,
 }
 
 /// Looks at all pages.
@@ -58,6 +60,7 @@ pub(super) fn search(file: &PageFile) -> Found {
     let mut runs: Vec<Run> = Vec::new();
     let mut topics = Vec::new();
     let mut definitions = BTreeMap::new();
+    let mut budget = Budget::new(file.len);
     for number in 1..=file.count {
         let Some(page) = file.page(number) else { break };
         let Some(cells) = file.cells(&page) else { continue };
@@ -73,7 +76,7 @@ pub(super) fn search(file: &PageFile) -> Found {
             continue;
         }
         for cell in &cells {
-            match texts(file, &page, cell) {
+            match texts(file, &page, cell, &mut budget) {
                 Some(texts) if texts.name.starts_with('/') => topics.push((cell.id, texts)),
                 Some(TopicTexts {
                     name: type_name, type_name: encoding, format: text, qos: hash, ..
@@ -85,8 +88,10 @@ pub(super) fn search(file: &PageFile) -> Found {
         }
     }
     let (runs, repeated) = without_repeated(runs);
-    let topics = topics.into_iter().map(|(id, texts)| (id, texts.topic(&definitions))).collect();
-    Found { leaves: Leaves { runs }, topics, repeated }
+    let mut describer = Describer::new(definitions);
+    let topics = topics.into_iter().map(|(id, texts)| (id, describer.topic(texts))).collect();
+    let damage = [describer.damage(), budget.damage()].concat();
+    Found { leaves: Leaves { runs }, topics, repeated, damage }
 }
 
 /// Sorts by row number. Of runs that overlap the longest stays: the other ones are rows whose number was damaged, or old copies.
@@ -119,6 +124,28 @@ impl Run {
     }
 }
 
+/// The page that was read last: runs that follow each other are mostly on the same one.
+#[derive(Default)]
+struct Leaf {
+    read: Option<(u32, Page, Vec<Cell>)>,
+}
+
+impl Leaf {
+    /// A page and its rows with these numbers, first and last.
+    fn cells(&mut self, file: &PageFile, number: u32, ids: (i64, i64)) -> Option<(&Page, &[Cell])> {
+        if self.read.as_ref().is_none_or(|(read, ..)| *read != number) {
+            let page = file.page(number)?;
+            let cells = file.cells(&page).unwrap_or_default();
+            self.read = Some((number, page, cells));
+        }
+        let (_, page, cells) = self.read.as_ref()?;
+        // They are sorted.
+        let begin = cells.partition_point(|cell| cell.id < ids.0);
+        let end = cells.partition_point(|cell| cell.id <= ids.1);
+        Some((page, cells.get(begin..end).unwrap_or_default()))
+    }
+}
+
 impl Leaves {
     /// How many messages there are.
     pub(super) fn count(&self) -> u64 {
@@ -132,16 +159,27 @@ impl Leaves {
     }
 
     /// Hands all rows to the collector. Returns the rows of the blocks, and the numbers that are missing.
-    pub(super) fn scan(&self, file: &PageFile, collector: &mut Collector<'_>) -> (Vec<Span>, Vec<Gap>) {
+    pub(super) fn scan(
+        &self,
+        file: &PageFile,
+        collector: &mut Collector<'_>,
+        measure: &mut Measure,
+    ) -> (Vec<Span>, Vec<Gap>) {
         let mut spans: Vec<Span> = Vec::new();
         let mut gaps = Vec::new();
         let mut expected = 1;
         let mut before = 1;
+        let mut leaf = Leaf::default();
         for (place, run) in self.runs.iter().enumerate() {
-            let Some(page) = file.page(run.page) else { continue };
-            let cells = file.cells(&page).unwrap_or_default();
-            for cell in cells.iter().filter(|cell| (run.first..=run.last).contains(&cell.id)) {
-                let Some(row) = message(file, &page, cell) else { continue };
+            let Some((page, cells)) = leaf.cells(file, run.page, (run.first, run.last)) else { continue };
+            for cell in cells {
+                let Some((mut row, begin)) = message(file, page, cell) else { continue };
+                if collector.lacks_size(&row)
+                    && let Some(Size { stored, in_memory }) = &mut row.data
+                {
+                    let data = file.read(page, cell, begin..begin + *stored).unwrap_or_default();
+                    *in_memory = measure.size(&data);
+                }
                 if row.id > expected {
                     gaps.push(Gap { ids: (expected, row.id - 1), page: before });
                 }
@@ -166,14 +204,17 @@ impl Leaves {
         mut take: impl FnMut(&Row, &[u8]),
         mut lost: impl FnMut(i64, u32),
     ) {
+        let mut leaf = Leaf::default();
         for run in self.runs.get(span.runs.0..=span.runs.1).unwrap_or_default() {
-            let Some(page) = file.page(run.page) else { continue };
-            let (first, last) = (span.ids.0.max(run.first), span.ids.1.min(run.last));
-            let cells = file.cells(&page).unwrap_or_default();
-            for cell in cells.iter().filter(|cell| (first..=last).contains(&cell.id)) {
-                let Some((row, place)) = message_with_place(file, &page, cell) else { continue };
+            let ids = (span.ids.0.max(run.first), span.ids.1.min(run.last));
+            let Some((page, cells)) = leaf.cells(file, run.page, ids) else { continue };
+            for cell in cells {
+                let Some((mut row, place)) = message(file, page, cell) else { continue };
                 let size = row.data.map_or(0, |size| size.stored);
-                match file.read(&page, cell, place..place + size) {
+                if let Some(Size { stored, in_memory }) = &mut row.data {
+                    *in_memory = in_memory.or(Some(*stored));
+                }
+                match file.read(page, cell, place..place + size) {
                     Ok(data) if data.len() as u64 == size => take(&row, &data),
                     _ => lost(cell.id, run.page),
                 }
@@ -182,12 +223,8 @@ impl Leaves {
     }
 }
 
-fn message(file: &PageFile, page: &Page, cell: &Cell) -> Option<Row> {
-    message_with_place(file, page, cell).map(|(row, _)| row)
-}
-
 /// The row, if it has the shape of a message: id (stored as nothing), topic, time, data. Also where the data begin.
-fn message_with_place(file: &PageFile, page: &Page, cell: &Cell) -> Option<(Row, u64)> {
+fn message(file: &PageFile, page: &Page, cell: &Cell) -> Option<(Row, u64)> {
     let values = PageFile::values(page, cell, 4)?;
     let [Value::Null, Value::Integer(topic_id), Value::Integer(timestamp), Value::Blob(stored, place)] =
         values[..]
@@ -202,15 +239,26 @@ fn message_with_place(file: &PageFile, page: &Page, cell: &Cell) -> Option<(Row,
 
 /// The texts of a row that consists of nothing else, at least three: a topic, or a definition, whose columns come in another
 /// order (type, encoding, text, hash).
-fn texts(file: &PageFile, page: &Page, cell: &Cell) -> Option<TopicTexts> {
+fn texts(file: &PageFile, page: &Page, cell: &Cell, budget: &mut Budget) -> Option<TopicTexts> {
     let values = PageFile::values(page, cell, 6)?;
     let Some((Value::Null, texts)) = values.split_first() else { return None };
-    let mut found = texts.iter().map(|value| match *value {
-        Value::Text(size, place) => {
-            let bytes = file.read(page, cell, place..place + size).ok()?;
-            Some(String::from_utf8_lossy(&bytes).into_owned())
-        }
-        _ => None,
+    let places: Vec<_> = texts
+        .iter()
+        .map(|value| match *value {
+            Value::Text(size, place) => Some(place..place + size),
+            _ => None,
+        })
+        .collect();
+    let [Some(_), Some(_), Some(_), ..] = places[..] else { return None };
+    let end = places.iter().flatten().map(|place| place.end).max()?;
+    if !budget.take(end) {
+        return None;
+    }
+    let row = file.read(page, cell, 0..end).ok()?;
+    let mut found = places.iter().map(|place| {
+        let place = place.as_ref()?;
+        let bytes = row.get(usize::try_from(place.start).ok()?..usize::try_from(place.end).ok()?)?;
+        Some(String::from_utf8_lossy(bytes).into_owned())
     });
     let (name, type_name, format) = (found.next()??, found.next()??, found.next()??);
     let mut or_nothing = || found.next().flatten().unwrap_or_default();

@@ -12,6 +12,15 @@ use super::database::{Database, Unfit, text};
 use crate::topic::Topic;
 use crate::{MessageDefinition, qos};
 
+/// Longest text of a quality of service. One publisher has 300 bytes, and reading YAML takes fifty times its size.
+const QOS_BYTES: usize = 1 << 18;
+/// What those of all topics may have.
+const ALL_QOS_BYTES: usize = 4 << 20;
+/// What the definitions of all topics may take. A type has a few kB, and each of its topics has its own copy.
+const DEFINITIONS_BYTES: usize = 32 << 20;
+/// As many as an MCAP file can have.
+const MOST_TOPICS: usize = 1 << 16;
+
 /// What the database says about its topics.
 #[derive(Default)]
 pub(super) struct Schema {
@@ -31,20 +40,101 @@ pub(super) struct TopicTexts {
     pub(super) type_hash: String,
 }
 
-impl TopicTexts {
-    pub(super) fn topic(self, definitions: &BTreeMap<String, MessageDefinition>) -> Topic {
-        let mut definition = definitions.get(&self.type_name).cloned().unwrap_or_default();
-        if !self.type_hash.is_empty() {
-            definition.type_hash = self.type_hash;
+/// Makes topics of their texts, within bounds: a stranger's file may say of ten thousand topics what takes megabytes each.
+pub(super) struct Describer {
+    definitions: BTreeMap<String, MessageDefinition>,
+    definition_bytes: usize,
+    qos_bytes: usize,
+    without_definition: u64,
+    without_qos: u64,
+}
+
+impl Describer {
+    /// With definitions by type.
+    pub(super) fn new(definitions: BTreeMap<String, MessageDefinition>) -> Self {
+        Self {
+            definitions,
+            definition_bytes: DEFINITIONS_BYTES,
+            qos_bytes: ALL_QOS_BYTES,
+            without_definition: 0,
+            without_qos: 0,
         }
-        Topic {
-            name: self.name,
-            type_name: self.type_name,
-            serialization_format: self.format,
-            // A QoS nobody can read is one that is not known.
-            offered_qos: qos::from_yaml(&self.qos).unwrap_or_default(),
-            definition,
+    }
+
+    pub(super) fn topic(&mut self, texts: TopicTexts) -> Topic {
+        let mut definition = MessageDefinition::default();
+        if let Some(known) = self.definitions.get(&texts.type_name) {
+            match self.definition_bytes.checked_sub(known.text.len()) {
+                Some(left) => {
+                    self.definition_bytes = left;
+                    definition.clone_from(known);
+                }
+                None => self.without_definition += 1,
+            }
         }
+        if !texts.type_hash.is_empty() {
+            definition.type_hash = texts.type_hash;
+        }
+        let left = self.qos_bytes.checked_sub(texts.qos.len()).filter(|_| texts.qos.len() <= QOS_BYTES);
+        let offered_qos = match left {
+            Some(left) => {
+                self.qos_bytes = left;
+                // A QoS nobody can read is one that is not known.
+                qos::from_yaml(&texts.qos).unwrap_or_default()
+            }
+            None => {
+                self.without_qos += 1;
+                Vec::new()
+            }
+        };
+        let (name, type_name, serialization_format) = (texts.name, texts.type_name, texts.format);
+        Topic { name, type_name, serialization_format, offered_qos, definition }
+    }
+
+    /// What was left out, a sentence each.
+    pub(super) fn damage(&self) -> Vec<String> {
+        let definitions = format!(
+            "definitions of more than {DEFINITIONS_BYTES} bytes altogether; those of {} topics are left out",
+            self.without_definition
+        );
+        let qos = format!(
+            "qualities of service of more than {QOS_BYTES} bytes, or {ALL_QOS_BYTES} altogether; those of {} topics are left out",
+            self.without_qos
+        );
+        let sentences = [(self.without_definition, definitions), (self.without_qos, qos)];
+        sentences.into_iter().filter(|(count, _)| *count > 0).map(|(_, sentence)| sentence).collect()
+    }
+}
+
+/// Bytes of texts that are read: rows of a whole file have no more than the file, broken or hostile ones share their pages.
+pub(super) struct Budget {
+    left: u64,
+    refused: u64,
+}
+
+impl Budget {
+    /// For a file of this size.
+    pub(super) fn new(file_bytes: u64) -> Self {
+        Self { left: file_bytes, refused: 0 }
+    }
+
+    /// Whether a row with this many bytes may be read.
+    pub(super) fn take(&mut self, bytes: u64) -> bool {
+        let left = self.left.checked_sub(bytes);
+        self.left = left.unwrap_or(self.left);
+        self.refused += u64::from(left.is_none());
+        left.is_some()
+    }
+
+    /// What was not read.
+    pub(super) fn damage(&self) -> Vec<String> {
+        let refused = self.refused;
+        let sentence = || {
+            format!(
+                "topics and definitions that claim more bytes than the file has; those of {refused} rows are left out"
+            )
+        };
+        (refused > 0).then(sentence).into_iter().collect()
     }
 }
 
@@ -55,66 +145,92 @@ pub(super) fn definition(encoding: String, text: String, type_hash: String) -> M
     MessageDefinition { encoding, text, type_hash }
 }
 
-/// Reads all topics. The inner error says why its table is not read.
-pub(super) fn read(database: &Database) -> rusqlite::Result<Result<Schema, Unfit>> {
+/// Reads all topics of a file of `len` bytes. The inner error says why its table is not read.
+pub(super) fn read(database: &Database, len: u64) -> rusqlite::Result<Result<Schema, Unfit>> {
     let table = match database.table_with("topics", &["name", "type", "serialization_format"])? {
         Ok(table) => table,
         Err(unfit) => return Ok(Err(unfit)),
     };
     let mut schema = Schema::default();
-    let definitions = read_definitions(database).unwrap_or_else(|error| {
+    let mut budget = Budget::new(len);
+    let definitions = read_definitions(database, &mut budget).unwrap_or_else(|error| {
         schema.damage.push(format!("the message definitions cannot be read: {error}"));
         BTreeMap::new()
     });
+    let mut describer = Describer::new(definitions);
     let or_nothing = |column| if table.has(column) { column } else { "''" };
     let (qos, hash) = (or_nothing("offered_qos_profiles"), or_nothing("type_description_hash"));
-    let sql = format!(
-        "SELECT id, name, type, serialization_format, {qos}, {hash} FROM topics NOT INDEXED ORDER BY id"
-    );
-    let mut statement = database.prepare(&sql)?;
-    let mut rows = statement.query([])?;
-    let mut last = None;
-    while let Some(row) = rows.next()? {
-        let id: i64 = row.get(0)?;
-        if last.is_some_and(|last| last >= id) {
-            schema.damage.push("the table of topics leads back into itself".to_owned());
-            break;
-        }
-        last = Some(id);
-        let ValueRef::Text(_) = row.get_ref(1)? else {
-            schema.damage.push(format!("topic {id} has no name"));
-            continue;
+    let columns = ["name", "type", "serialization_format", qos, hash];
+    let mut unnamed = Vec::new();
+    let ended = for_each_row(database, "topics", columns, &mut budget, |id, texts| {
+        let [Some(name), type_name, format, qos, type_hash] = texts else {
+            unnamed.push(id);
+            return;
         };
-        let texts = TopicTexts {
-            name: text(row.get_ref(1)?),
-            type_name: text(row.get_ref(2)?),
-            format: text(row.get_ref(3)?),
-            qos: text(row.get_ref(4)?),
-            type_hash: text(row.get_ref(5)?),
-        };
-        schema.topics.insert(id, texts.topic(&definitions));
-    }
+        let [type_name, format, qos, type_hash] =
+            [type_name, format, qos, type_hash].map(Option::unwrap_or_default);
+        schema.topics.insert(id, describer.topic(TopicTexts { name, type_name, format, qos, type_hash }));
+    })?;
+    schema.damage.extend(unnamed.iter().map(|id| format!("topic {id} has no name")));
+    schema.damage.extend(ended);
+    schema.damage.extend(describer.damage());
+    schema.damage.extend(budget.damage());
     Ok(Ok(schema))
 }
 
 /// Definitions by type; none where the table is missing.
-fn read_definitions(database: &Database) -> rusqlite::Result<BTreeMap<String, MessageDefinition>> {
+fn read_definitions(
+    database: &Database,
+    budget: &mut Budget,
+) -> rusqlite::Result<BTreeMap<String, MessageDefinition>> {
     let needed = ["topic_type", "encoding", "encoded_message_definition", "type_description_hash"];
     let Ok(_) = database.table_with("message_definitions", &needed)? else { return Ok(BTreeMap::new()) };
-    let sql = "SELECT id, topic_type, encoding, encoded_message_definition, type_description_hash
-               FROM message_definitions NOT INDEXED ORDER BY id";
-    let mut statement = database.prepare(sql)?;
-    let mut rows = statement.query([])?;
     let mut definitions = BTreeMap::new();
+    for_each_row(database, "message_definitions", needed, budget, |_, texts| {
+        let [type_name, encoding, text, type_hash] = texts.map(Option::unwrap_or_default);
+        definitions.insert(type_name, definition(encoding, text, type_hash));
+    })?;
+    Ok(definitions)
+}
+
+/// Hands the texts of each row to `take`, `None` where there is something else. The sizes are looked at first. Returns why
+/// it ended early.
+fn for_each_row<const N: usize>(
+    database: &Database,
+    table: &str,
+    columns: [&str; N],
+    budget: &mut Budget,
+    mut take: impl FnMut(i64, [Option<String>; N]),
+) -> rusqlite::Result<Option<String>> {
+    let sizes = columns.map(|column| format!("coalesce(octet_length({column}), 0)")).join(" + ");
+    let mut sizes = database.prepare(&format!("SELECT id, {sizes} FROM {table} NOT INDEXED ORDER BY id"))?;
+    let texts = format!("SELECT {} FROM {table} NOT INDEXED WHERE id = ?1", columns.join(", "));
+    let mut texts = database.prepare(&texts)?;
+    let mut rows = sizes.query([])?;
     let mut last = None;
+    let mut count = 0;
     while let Some(row) = rows.next()? {
         let id: i64 = row.get(0)?;
         if last.is_some_and(|last| last >= id) {
-            break;
+            return Ok(Some(format!("the table of {} leads back into itself", table.replace('_', " "))));
         }
         last = Some(id);
-        let found = definition(text(row.get_ref(2)?), text(row.get_ref(3)?), text(row.get_ref(4)?));
-        definitions.insert(text(row.get_ref(1)?), found);
+        count += 1;
+        if count > MOST_TOPICS {
+            return Ok(Some(format!("more than {MOST_TOPICS} {}", table.replace('_', " "))));
+        }
+        if !budget.take(u64::try_from(row.get::<_, i64>(1)?).unwrap_or(u64::MAX)) {
+            continue;
+        }
+        let mut found = texts.query([id])?;
+        if let Some(found) = found.next()? {
+            let mut values = [const { None }; N];
+            for (at, value) in values.iter_mut().enumerate() {
+                let stored = found.get_ref(at)?;
+                *value = matches!(stored, ValueRef::Text(_)).then(|| text(stored));
+            }
+            take(id, values);
+        }
     }
-    Ok(definitions)
+    Ok(None)
 }
