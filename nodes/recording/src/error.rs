@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum Error {
     /// The operating system refused.
-    #[error("{}: cannot {action}: {source}", path.display())]
+    #[error("{}: cannot {action}: {reason}", path.display())]
     Io {
         /// File or directory.
         path: PathBuf,
         /// What was tried, as a verb.
         action: &'static str,
-        /// The system's reason.
-        source: std::io::Error,
+        /// The system's reason. It is in the sentence, and no `source` that would say it a second time.
+        reason: std::io::Error,
     },
     /// A recording is never overwritten.
     #[error("{}: exists already and is not overwritten; choose another name or move it away", path.display())]
@@ -48,6 +48,14 @@ pub enum Error {
         /// What is wrong there.
         reason: String,
     },
+    /// The end of a file says that its recorder was stopped hard. Nothing that was stored is lost by that.
+    #[error("{} at byte {offset}: the file ends without its closing records: its recorder was stopped hard", path.display())]
+    NotClosed {
+        /// File.
+        path: PathBuf,
+        /// Its size, bytes.
+        offset: u64,
+    },
     /// `metadata.yaml` cannot be used.
     #[error("{}: {reason}", path.display())]
     Metadata {
@@ -56,13 +64,13 @@ pub enum Error {
         /// Which key, and why.
         reason: String,
     },
-    /// The MCAP encoder refused, mostly because the disk did.
-    #[error("{}: cannot write: {source}", path.display())]
+    /// The MCAP encoder refused.
+    #[error("{}: cannot write: {reason}", path.display())]
     Write {
         /// The `.mcap` file.
         path: PathBuf,
-        /// The encoder's reason.
-        source: mcap::McapError,
+        /// The encoder's reason, in the sentence.
+        reason: mcap::McapError,
     },
     /// A topic was added twice.
     #[error("topic {topic} is in the recording already")]
@@ -75,11 +83,15 @@ pub enum Error {
 impl Error {
     /// For `map_err` on calls into the operating system.
     pub(crate) fn io(path: &Path, action: &'static str) -> impl FnOnce(std::io::Error) -> Self {
-        move |source| Self::Io { path: path.to_owned(), action, source }
+        move |reason| Self::Io { path: path.to_owned(), action, reason }
     }
 
     pub(crate) fn write(path: &Path) -> impl FnOnce(mcap::McapError) -> Self {
-        move |source| Self::Write { path: path.to_owned(), source }
+        move |error| match error {
+            // mcap does not say the system's reason in its own sentence.
+            mcap::McapError::Io(reason) => Self::io(path, "write")(reason),
+            reason => Self::Write { path: path.to_owned(), reason },
+        }
     }
 
     pub(crate) fn damaged(path: &Path, offset: u64, reason: impl Into<String>) -> Self {

@@ -138,9 +138,7 @@ impl<'a> Walk<'a> {
             offset = self.step(view, offset)?;
         }
         if !self.is_closed {
-            self.note_at(self.file.len(), || {
-                "the file ends without its closing records: its recorder was stopped hard".to_owned()
-            });
+            self.note(Error::NotClosed { path: self.file.path().to_owned(), offset: self.file.len() });
         }
         self.end_of_indexes();
         Ok(())
