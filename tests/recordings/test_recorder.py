@@ -212,12 +212,27 @@ def test_a_recorder_killed_while_it_writes_leaves_all_but_the_last_second(tmp_pa
         assert killed_ns - found[-1]["log_time_ns"] < 1_000_000_000, topic
 
 
-def test_a_full_disk_is_one_error_and_what_was_written_stays_readable(tmp_path, programs, example):
+@pytest.fixture
+def small_disk(tmp_path):
+    """A disk of 4 MB."""
+    path = tmp_path / "disk"
+    path.mkdir()
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m", "small_disk", path], capture_output=True, text=True)
+    if mounted.returncode != 0:
+        pytest.skip(f"mounting is not permitted here: {mounted.stderr.strip()}")
+    yield path
+    subprocess.run(["umount", path], check=True)
+
+
+@pytest.mark.parametrize("full", ["limit", "disk"])
+def test_a_full_disk_is_one_error_and_what_was_written_stays_readable(tmp_path, programs, example, request, full):
     topics = ["measured_cp", "surface_displacement"]
-    program = programs(recorder(tmp_path, recording__topics=topics))
-    # A file that must not grow further fails to be written as one on a full disk does.
-    limit = 4_000_000
-    resource.prlimit(program.process.pid, resource.RLIMIT_FSIZE, (limit, limit))
+    folder = request.getfixturevalue("small_disk") if full == "disk" else tmp_path
+    program = programs(recorder(tmp_path, recording__topics=topics, recording__directory=str(folder)))
+    if full == "limit":
+        # A file that must not grow further fails to be written as one on a full disk does.
+        limit = 4_000_000
+        resource.prlimit(program.process.pid, resource.RLIMIT_FSIZE, (limit, limit))
     publisher = subprocess.Popen(
         [sys.executable, Path(__file__).with_name("numbered_publisher.py"), "60000", *topics],
         stdin=subprocess.PIPE,
@@ -231,10 +246,12 @@ def test_a_full_disk_is_one_error_and_what_was_written_stays_readable(tmp_path, 
         publisher.communicate()
     errors = [line for line in program.log().splitlines() if "ERROR" in line]
     assert len(errors) == 1, program.log()
-    for word in ("session_0.mcap", "cannot write", "File too large", "stays readable"):
+    reason = {"limit": "File too large", "disk": "No space left on device"}[full]
+    for word in ("session_0.mcap", "cannot write", "stays readable"):
         assert word in errors[0]
+    assert errors[0].count(reason) == 1, errors[0]
     assert "panicked" not in program.log()
-    lines = [json.loads(line) for line in example("print_recording", tmp_path / "session").splitlines()]
+    lines = [json.loads(line) for line in example("print_recording", folder / "session").splitlines()]
     for topic in topics:
         found = [line["value"]["header"]["stamp"]["nanosec"] for line in lines if line.get("on") == f"/{topic}"]
         assert found == list(range(len(found))) and len(found) > 20, topic
