@@ -16,10 +16,14 @@ impl StampRate {
     }
 
     /// Whether it is due at this stamp, and if so, when it is due next. The average rate is kept however the stamps are
-    /// spaced; periods without a stamp are not made up for, and stamps that go back start anew.
+    /// spaced; periods without a stamp are not made up for. Stamps that go back start anew once they are a period back: also
+    /// where every one goes back it is due at its rate and not at each.
     pub fn is_due(&mut self, stamp_ns: i64) -> bool {
         let next_ns = match self.due_ns {
-            Some(due_ns) if stamp_ns < due_ns && due_ns.saturating_sub(stamp_ns) <= self.period_ns => {
+            Some(due_ns)
+                if stamp_ns < due_ns
+                    && due_ns.saturating_sub(stamp_ns) < self.period_ns.saturating_mul(2) =>
+            {
                 return false;
             }
             Some(due_ns) if stamp_ns >= due_ns => due_ns.saturating_add(self.period_ns),
@@ -54,6 +58,16 @@ mod tests {
         assert!(rate.is_due(5 * MS), "ten minutes back is not ten minutes of silence");
         assert!(!rate.is_due(14 * MS));
         assert!(rate.is_due(15 * MS));
+    }
+
+    #[test]
+    fn stamps_that_all_go_back_give_the_rate_as_well() {
+        let mut rate = StampRate::new(100.0).unwrap();
+        let due = (0..1000).rev().filter(|ms| rate.is_due(ms * MS)).count();
+        assert_eq!(due, 100);
+        let mut rate = StampRate::new(100.0).unwrap();
+        let due = (0..1000).filter(|ms| rate.is_due((ms - 3 * (ms % 2)) * MS)).count();
+        assert!((99..=101).contains(&due), "{due} with every other stamp going back");
     }
 
     #[test]
