@@ -1,6 +1,7 @@
 """Lockstep over DDS: the next pose is sent when the force for the last one is back, whatever the load and the model."""
 
 import hashlib
+import json
 import math
 import os
 import random
@@ -8,11 +9,13 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import bags
 import peer
 import pytest
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, TransformStamped, WrenchStamped
 from rosgraph_msgs.msg import Clock
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -24,6 +27,11 @@ from tf2_msgs.msg import TFMessage
 
 CLOCK_QOS = QoSProfile(depth=10_000, reliability=ReliabilityPolicy.BEST_EFFORT)
 COUNT = 1500
+REPOSITORY = Path(__file__).resolve().parents[2]
+# Recording, parameters, digest of the model's answers.
+COMMITTED = [
+    line.split() for line in (REPOSITORY / "tests/bags/sha256.txt").read_text().splitlines() if not line.startswith("#")
+]
 
 
 def pose(at_ms, position, frame="device_base"):
@@ -58,16 +66,30 @@ def pull(devices=("",), count=COUNT):
             yield "/tf", i, TFMessage(transforms=[move])
 
 
-def replay(folder, path, **values):
+def replay(folder, path, arguments=(), **values):
     values = {"bag_replay.mode": "play", "replay.path": str(path), "replay.lockstep": True} | {
         name.replace("__", "."): value for name, value in values.items()
     }
-    return peer.Program(folder, "bag_replay", values)
+    return peer.Program(folder, "bag_replay", values, arguments=arguments)
 
 
 def model(folder, **values):
     values = {**peer.SCENE, "replay.lockstep": True} | {name.replace("__", "."): value for name, value in values.items()}
     return peer.Program(folder, "deformation", values).wait_ready()
+
+
+def record_answers(folder, devices=("",)):
+    """A recorder of what the model says, which writes to folder / "answers"."""
+    topics = [f"{device}{name}" for device in devices for name in ("servo_cf", "contact_state", "contact_law")]
+    values = {"recording.directory": str(folder), "recording.name": "answers"}
+    values["recording.topics"] = [*topics, "surface_displacement"]
+    return peer.Program(folder / "recorder", "bag_replay", values).wait_ready()
+
+
+def forces_in(path, topic="/servo_cf"):
+    with AnyReader([path]) as reader:
+        connections = [connection for connection in reader.connections if connection.topic == topic]
+        return [reader.deserialize(data, one.msgtype) for one, _, data in reader.messages(connections=connections)]
 
 
 def ended(remote, program):
@@ -86,10 +108,11 @@ def digest(messages):
 
 
 def assert_same_without_ros(poses, parameters, answers):
-    """What the model said over DDS is, bit for bit, what the command line computes from the same recording."""
-    command = [peer.PROGRAMS / "rhombus", "replay", poses, "--params", parameters, "--expect", answers]
+    """What the model said over DDS is, bit for bit, what the command line computes from the same recording; its report."""
+    command = [peer.PROGRAMS / "rhombus", "replay", poses, "--params", parameters, "--expect", answers, "--json"]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
+    return json.loads(done.stdout)
 
 
 class Busy:
@@ -115,10 +138,7 @@ def test_every_pose_is_answered_with_the_bits_of_the_replay_without_ros_idle_and
 
     def run(folder):
         deformation = programs(model(folder, **names))
-        record = {"recording.directory": str(folder), "recording.name": "answers"}
-        answers = [f"{device}{name}" for device in devices for name in ("servo_cf", "contact_state", "contact_law")]
-        record["recording.topics"] = [*answers, "surface_displacement"]
-        recorder = programs(peer.Program(folder / "recorder", "bag_replay", record).wait_ready())
+        recorder = programs(record_answers(folder, devices))
         remote.spin(0.5)
         program = programs(replay(folder, path, **names))
         assert ended(remote, program) == 0, program.log()
@@ -126,11 +146,7 @@ def test_every_pose_is_answered_with_the_bits_of_the_replay_without_ros_idle_and
         assert deformation.interrupt()[0] == 0, deformation.log()
         report = program.closing_report()["lockstep"]
         assert report["poses"] == deformation.closing_report()["poses"] == count * len(devices)
-        forces = {f"/{device}servo_cf": [] for device in devices}
-        with AnyReader([folder / "answers"]) as reader:
-            for connection, _, data in reader.messages():
-                if connection.topic in forces:
-                    forces[connection.topic].append(reader.deserialize(data, connection.msgtype))
+        forces = {f"/{device}servo_cf": forces_in(folder / "answers", f"/{device}servo_cf") for device in devices}
         for heard in forces.values():
             stamps = [message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec for message in heard]
             assert stamps == [bags.START_NS + i * bags.MS for i in range(count)]
@@ -142,6 +158,92 @@ def test_every_pose_is_answered_with_the_bits_of_the_replay_without_ros_idle_and
     with Busy():
         loaded = run(tmp_path / "loaded")
     assert idle == loaded
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters", "digest"), [row for row in COMMITTED if row[0] not in ("slide", "sensor_noise")]
+)
+def test_the_committed_recordings_are_answered_over_dds_with_the_committed_digest(
+    tmp_path, programs, remote, name, parameters, digest
+):
+    path, parameters = REPOSITORY / "tests/bags" / name, REPOSITORY / parameters
+    devices = ("left/", "right/") if name == "two_devices" else ("",)
+    scene = ["--params-file", str(parameters)]
+    deformation = programs(
+        peer.Program(tmp_path, "deformation", {"replay.lockstep": True}, arguments=scene).wait_ready()
+    )
+    recorder = programs(record_answers(tmp_path, devices))
+    remote.spin(0.5)
+    program = programs(replay(tmp_path, path, scene))
+    assert ended(remote, program) == 0, program.log()
+    assert recorder.interrupt()[0] == 0, recorder.log()
+    assert deformation.interrupt()[0] == 0, deformation.log()
+    report = assert_same_without_ros(path, parameters, tmp_path / "answers")
+    assert report["sha256"] == digest
+    answered = sum(len(forces_in(tmp_path / "answers", f"/{device}servo_cf")) for device in devices)
+    assert answered == report["poses"] == program.closing_report()["lockstep"]["poses"]
+
+
+def broken_poses():
+    """A press in which poses are none, and stamps repeat, jump back and are zero."""
+    for i in range(400):
+        message = pose(i, peer.pressed(0.002 + 0.001 * math.sin(i / 40.0)))
+        if i in (100, 101):
+            message.pose.position.x = math.nan
+        if i == 110:
+            message.pose.orientation.w = 0.0
+        if i == 120:
+            message.pose.orientation.w = math.nan
+        if i in (150, 151):
+            bags.stamp(message, 149)
+        if i == 200:
+            bags.stamp(message, 100)
+        if i in (0, 250, 251):
+            message.header.stamp.sec = message.header.stamp.nanosec = 0
+        yield "/measured_cp", i, message
+
+
+def test_poses_that_are_none_and_stamps_that_do_not_grow_are_each_answered_as_without_ros(tmp_path, programs, remote):
+    path = bags.write(tmp_path / "bag", broken_poses())
+    deformation = programs(model(tmp_path))
+    recorder = programs(record_answers(tmp_path))
+    remote.spin(0.5)
+    program = programs(replay(tmp_path, path))
+    assert ended(remote, program) == 0, program.log()
+    assert recorder.interrupt()[0] == 0, recorder.log()
+    assert deformation.interrupt()[0] == 0, deformation.log()
+    assert program.closing_report()["lockstep"]["poses"] == 400
+    forces = forces_in(tmp_path / "answers")
+    assert [peer.stamp_of(force) for force in forces] == [peer.stamp_of(sent) for _, _, sent in broken_poses()]
+    for i in (100, 101, 110, 120, 200, 250):
+        assert peer.force_of(forces[i]) == (0.0, 0.0, 0.0), i
+    for i in (99, 130, 150, 151, 220, 300):
+        assert peer.size(forces[i]) > 0.0, i
+    report = assert_same_without_ros(path, tmp_path / "root_deformation.yaml", tmp_path / "answers")
+    # Not finite, no rotation, stamps that go back.
+    assert (report["poses"], report["rejected"]) == (400, [3, 1, 0, 2, 0])
+
+
+def test_a_model_on_simulated_time_follows_the_clock_of_a_replay(tmp_path, programs, remote):
+    path = bags.write(tmp_path / "bag", pull(count=1500))
+    deformation = programs(model(tmp_path, use_sim_time=True))
+    diagnostics = remote.heard(DiagnosticArray, "/diagnostics", peer.reliable(100))
+    recorder = programs(record_answers(tmp_path))
+    remote.spin(0.5)
+    program = programs(replay(tmp_path, path, replay__clock=1000.0))
+    assert ended(remote, program) == 0, program.log()
+    # The node says once a second what it does, in the time of the recording.
+    last_ns = bags.START_NS + 1499 * bags.MS
+    said_ns = lambda: [
+        peer.stamp_of(message) for message in diagnostics if message.status[0].name.startswith("/deformation")
+    ]
+    # /clock is best effort: its very last message may be lost.
+    close_ns = last_ns - 100 * bags.MS
+    remote.wait_for(lambda: any(stamp_ns > close_ns for stamp_ns in said_ns()), "diagnostics at the end of the recording")
+    assert all(stamp_ns == 0 or bags.START_NS <= stamp_ns <= last_ns for stamp_ns in said_ns()), said_ns()
+    assert recorder.interrupt()[0] == 0, recorder.log()
+    assert deformation.interrupt()[0] == 0, deformation.log()
+    assert_same_without_ros(path, tmp_path / "root_deformation.yaml", tmp_path / "answers")
 
 
 class SlowModel:

@@ -29,13 +29,25 @@ const PROBE_RADIUS_M: f64 = 0.005;
 fn main() {
     let directory = std::env::args().nth(1).unwrap();
     let directory = Path::new(&directory);
-    let seconds: Option<u64> = std::env::args().nth(2).map(|text| text.parse().unwrap());
-    let scene = Scene::from_file(Path::new("config/liver.yaml"), Reader::Everything).unwrap();
-    let sites = sites(&scene.load_body().unwrap().body, 4);
-    let (here, there) = (sites[0], sites[1]);
-    if let Some(seconds) = seconds {
-        return session(&directory.join("session"), seconds, &here, &there);
+    match std::env::args().nth(2) {
+        Some(seconds) => {
+            let (here, there) = places(Path::new("."));
+            session(&directory.join("session"), seconds.parse().unwrap(), &here, &there);
+        }
+        None => make(Path::new("."), directory),
     }
+}
+
+/// Two sites of the liver of the repository at `root`.
+fn places(root: &Path) -> (Site, Site) {
+    let scene = Scene::from_file(&root.join("config/liver.yaml"), Reader::Everything).unwrap();
+    let sites = sites(&scene.load_body().unwrap().body, 4);
+    (sites[0], sites[1])
+}
+
+/// All recordings of tests/bags, into a directory; `root` is that of the repository.
+pub fn make(root: &Path, directory: &Path) {
+    let (here, there) = places(root);
 
     let mut bag = Bag::create(&directory.join("press"));
     let hand = bag.device("", "device_base");

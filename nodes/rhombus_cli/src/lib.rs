@@ -4,6 +4,7 @@ pub mod assignments;
 pub mod calibrate;
 #[cfg(any(feature = "replay", feature = "report"))]
 pub mod drawing;
+pub mod guard;
 pub mod markup;
 pub mod output;
 pub mod reference;

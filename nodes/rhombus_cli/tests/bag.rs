@@ -326,3 +326,49 @@ fn a_repair_that_cannot_write_all_of_it_leaves_nothing_behind() {
     assert!(stderr.contains("cannot write"), "{stderr}");
     assert_eq!(names(&folder.path(".")), BTreeSet::from(["session".to_owned()]), "nothing is left behind");
 }
+
+#[test]
+fn a_verdict_keeps_its_exit_code_where_nothing_can_be_printed() {
+    let folder = with_session();
+    std::fs::write(folder.path("empty.mcap"), "").expect("written");
+    let cut = std::fs::read(folder.path("session/session_0.mcap")).expect("read");
+    std::fs::write(folder.path("cut.mcap"), &cut[..cut.len() / 2]).expect("written");
+    for (path, expected) in [("session", 0), ("cut.mcap", 1), ("empty.mcap", 2)] {
+        let full = std::fs::File::options().write(true).open("/dev/full").expect("it is there");
+        let output = folder.command(&["bag", "check", path]).stdout(full).output().expect("it starts");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(expected), "{path}: {said}");
+        assert_eq!(said.trim_end().lines().count(), 1, "{said}");
+        assert!(said.contains("cannot write to stdout: No space left"), "{said}");
+    }
+}
+
+#[test]
+fn the_reason_of_the_system_is_said_once() {
+    let folder = Folder::new();
+    std::os::unix::fs::symlink("loop.mcap", folder.path("loop.mcap")).expect("made");
+    for arguments in [
+        &["bag", "repair", "loop.mcap"][..],
+        &["bag", "repair", "loop.mcap", "--output", "loop.mcap/new"],
+        &["replay", "loop.mcap", "--params", "none.yaml"],
+    ] {
+        let refusal = folder.refusal(arguments);
+        assert!(refusal.matches("os error").count() <= 1, "{refusal}");
+    }
+    let refusal = folder.refusal(&["bag", "repair", "loop.mcap"]);
+    assert!(refusal.contains("os error 40"), "{refusal}");
+}
+
+#[test]
+fn what_a_repair_says_of_lost_messages_does_not_depend_on_the_name_of_the_file() {
+    let flipped = mcap_file::cases().into_iter().find(|case| case.name == "flipped_in_chunk.mcap");
+    let mut bytes = flipped.expect("it is made").files.remove(0).1;
+    // Without its closing records, where the recording itself does not say how many messages it had.
+    bytes.truncate(damaged::records::chunks(&bytes).last().expect("chunks").end);
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("closing records")).expect("made");
+    std::fs::write(folder.path("closing records/x.mcap"), &bytes).expect("written");
+    let run = folder.run(&["bag", "repair", "closing records/x.mcap", "--output", "saved"]);
+    assert_eq!(run.code, 1, "{}", run.stdout);
+    assert!(!run.stdout.contains("nothing lost"), "{}", run.stdout);
+}

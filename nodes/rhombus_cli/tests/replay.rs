@@ -2,10 +2,10 @@
 #![expect(clippy::unwrap_used, reason = "a test may fail here")]
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 
 use recording::cdr::{decode, encode};
-use recording::messages::{PoseStamped, TransformStamped, own_definition};
+use recording::messages::{PoseStamped, Time, TransformStamped, Vector3, WrenchStamped, own_definition};
 use recording::{MessageRef, Recording, Topic, TopicId, Writer};
 
 fn repository() -> PathBuf {
@@ -89,6 +89,45 @@ fn every_recording_is_answered_with_the_committed_bits() {
         assert_eq!(report["unusable"], 0, "{name}");
         assert_eq!(report["rejected"].as_array().unwrap().iter().filter_map(|n| n.as_u64()).sum::<u64>(), 0);
         assert!(report["surfaces"].as_u64().unwrap() > 70, "{name}");
+    }
+}
+
+/// Programs that keep a core busy for ever, ended with this value.
+struct Busy(Vec<Child>);
+
+impl Drop for Busy {
+    fn drop(&mut self) {
+        for program in &mut self.0 {
+            // Whoever is gone already is gone.
+            let _ = program.kill();
+            let _ = program.wait();
+        }
+    }
+}
+
+/// Whatever runs beside it, and on however many cores.
+#[test]
+fn one_core_and_two_under_load_give_the_same_bits() {
+    let busy =
+        || Command::new("sh").args(["-c", "while :; do :; done"]).stdout(Stdio::null()).spawn().unwrap();
+    let _busy = Busy((0..2).map(|_| busy()).collect());
+    let committed = std::fs::read_to_string(repository().join("tests/bags/sha256.txt")).unwrap();
+    let allowed = std::fs::read_to_string("/proc/self/status").unwrap();
+    let allowed = allowed.lines().find_map(|line| line.strip_prefix("Cpus_allowed_list:")).unwrap().trim();
+    let first = allowed.split(['-', ',']).next().unwrap();
+    for cores in [first, allowed] {
+        let output = Command::new("taskset")
+            .args(["--cpu-list", cores, env!("CARGO_BIN_EXE_rhombus"), "replay", "tests/bags/grasp_and_pull"])
+            .args(["--params", "config/liver.yaml", "--json"])
+            .current_dir(repository())
+            .output()
+            .unwrap();
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let digest = report["sha256"].as_str().unwrap();
+        assert!(
+            committed.contains(&format!("grasp_and_pull config/liver.yaml {digest}")),
+            "cores {cores}: {digest}"
+        );
     }
 }
 
@@ -231,4 +270,133 @@ fn a_recording_of_forces_only_asks_for_no_surface() {
     let output = replay(&bag("press"), &["--set", "surface.rate=0.0", "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&report["poses"], &report["surfaces"]), (&1500.into(), &0.into()));
+}
+
+/// The forces of a recording in their order, with their stamps.
+fn forces(path: &Path) -> Vec<(Time, Vector3)> {
+    let recording = Recording::open(path).unwrap();
+    let place = recording.topics().iter().position(|found| found.topic.name == "/servo_cf").unwrap();
+    let messages =
+        recording.messages_of(&[place]).map(|message| decode::<WrenchStamped>(&message.unwrap().data));
+    messages.map(|force| force.unwrap()).map(|force| (force.header.stamp, force.wrench.force)).collect()
+}
+
+/// Replays the recording `press` with the poses changed; the report, the poses' stamps and the forces.
+fn with_poses(
+    change: impl Fn(usize, &mut PoseStamped),
+) -> (serde_json::Value, Vec<Time>, Vec<(Time, Vector3)>) {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, golden) = (folder.path().join("changed"), folder.path().join("golden"));
+    let stamps = std::cell::RefCell::new(Vec::new());
+    let changed_pose = |number: usize, message: &MessageRef<'_>, _: &str| {
+        let mut pose: PoseStamped = decode(message.data).unwrap();
+        change(number, &mut pose);
+        stamps.borrow_mut().push(pose.header.stamp.clone());
+        vec![encode(&pose)]
+    };
+    changed(&bag("press"), &path, changed_pose, Topic::clone);
+    let (path, golden) = (path.to_str().unwrap(), golden.to_str().unwrap());
+    let output = replay(path, &["--record", golden, "--json"]);
+    assert_eq!(code(&output), 0, "{}", said(&output));
+    let again = replay(path, &["--expect", golden]);
+    assert_eq!(code(&again), 0, "{}", said(&again));
+    let report = serde_json::from_slice(&output.stdout).unwrap();
+    (report, stamps.into_inner(), forces(Path::new(golden)))
+}
+
+const NO_FORCE: Vector3 = Vector3 { x: 0.0, y: 0.0, z: 0.0 };
+
+#[test]
+fn poses_that_are_none_are_answered_with_no_force_and_cost_no_other() {
+    let (report, stamps, forces) = with_poses(|number, pose| {
+        let at = &mut pose.pose.position;
+        match number {
+            400 => at.x = f64::NAN,
+            401 => at.y = f64::INFINITY,
+            402 => at.z = 1e308,
+            403 => pose.pose.orientation.w = f64::NAN,
+            404 => pose.pose.orientation.w = 0.0,
+            _ => {}
+        }
+    });
+    assert_eq!((&report["poses"], &report["rejected"][0]), (&1500.into(), &4.into()), "{report}");
+    assert_eq!(report["rejected"][1], 1, "{report}");
+    assert_eq!(forces.iter().map(|(stamp, _)| stamp.clone()).collect::<Vec<_>>(), stamps, "each is answered");
+    assert!(forces[400..405].iter().all(|(_, force)| *force == NO_FORCE));
+    assert!(forces[399].1 != NO_FORCE && forces[410].1 != NO_FORCE, "in contact before and behind");
+}
+
+#[test]
+fn stamps_that_repeat_go_back_or_are_zero_are_each_answered_and_a_pose_behind_goes_on() {
+    let (report, stamps, forces) = with_poses(|number, pose| match number {
+        350 => pose.header.stamp.nanosec -= 1_000_000,
+        400 => pose.header.stamp.nanosec -= 50_000_000,
+        450 => pose.header.stamp = Time::default(),
+        _ => {}
+    });
+    assert_eq!(report["poses"], 1500, "{report}");
+    assert_eq!(report["rejected"][3], 2, "{report}");
+    assert_eq!(forces.iter().map(|(stamp, _)| stamp.clone()).collect::<Vec<_>>(), stamps, "each is answered");
+    assert!(forces[350].1 != NO_FORCE, "a stamp that repeats is no step back");
+    assert!(forces[400].1 == NO_FORCE && forces[450].1 == NO_FORCE);
+    assert!(forces[420].1 != NO_FORCE && forces[470].1 != NO_FORCE, "contact comes back");
+}
+
+#[test]
+fn stamps_that_all_go_back_give_no_force_and_surfaces_at_their_rate() {
+    let (report, _, forces) = with_poses(|number, pose| {
+        let ns = 1_500_000_000 - number as u32 * 1_000_000;
+        pose.header.stamp =
+            Time { sec: 1_700_000_000 + (ns / 1_000_000_000) as i32, nanosec: ns % 1_000_000_000 };
+    });
+    assert_eq!(report["rejected"][3], 1499, "{report}");
+    assert!(forces.iter().skip(1).all(|(_, force)| *force == NO_FORCE));
+    let surfaces = report["surfaces"].as_u64().unwrap();
+    assert!((85..=95).contains(&surfaces), "60 Hz over 1.5 s, not one for each pose: {surfaces}");
+}
+
+/// Copies a recording and flips a bit of the message data in the middle of its file.
+fn flipped(from: &Path, to: &Path) {
+    std::fs::create_dir(to).unwrap();
+    for entry in std::fs::read_dir(from).unwrap() {
+        let path = entry.unwrap().path();
+        let mut bytes = std::fs::read(&path).unwrap();
+        if path.extension().is_some_and(|extension| extension == "mcap") {
+            let middle = bytes.len() / 2;
+            bytes[middle] ^= 1;
+        }
+        std::fs::write(to.join(path.file_name().unwrap()), bytes).unwrap();
+    }
+}
+
+#[test]
+fn what_cannot_be_read_on_either_side_is_no_agreement() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let whole = golden(folder.path(), "press");
+    flipped(&repository().join("tests/bags/press"), Path::new(&path("press")));
+    flipped(Path::new(&whole), Path::new(&path("golden")));
+    // What the rest of the broken recording is answered with.
+    let output = replay(&path("press"), &["--record", &path("of_the_rest")]);
+    assert_eq!(code(&output), 0, "{}", said(&output));
+    assert!(said(&output).contains("place of the recording could not be read"), "{}", said(&output));
+    for (recording, expected, words) in [
+        (path("press"), path("of_the_rest"), "of the recording could not be read"),
+        (path("press"), whole, "could not be read"),
+        (bag("press"), path("golden"), "the golden recording is damaged"),
+    ] {
+        let reports = ["r.xml", "r.md"].map(path);
+        let more = ["--expect", &expected, "--junit", &reports[0], "--markdown", &reports[1]];
+        let output = replay(&recording, &more);
+        assert_eq!(code(&output), 2, "{}", said(&output));
+        let text = said(&output);
+        assert!(text.contains("not compared with") && text.contains(words), "{text}");
+        let [junit, markdown] = reports.map(|path| std::fs::read_to_string(path).unwrap());
+        assert!(junit.contains("<error message=") && !junit.contains("errors=\"0\""), "{junit}");
+        assert!(markdown.contains("## Replay: not compared"), "{markdown}");
+        let output = replay(&recording, &["--expect", &expected, "--json"]);
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!((code(&output), &report["comparison"]["verdict"]), (2, &"not compared".into()));
+        assert!(report["comparison"]["reason"].as_str().unwrap().contains("read"), "{report}");
+    }
 }

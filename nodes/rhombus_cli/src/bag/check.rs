@@ -7,8 +7,8 @@ use std::process::ExitCode;
 use clap::{Args, ValueHint};
 use recording::check::{Report, Verdict};
 
-use super::guard::checked;
 use super::text::verdict;
+use super::{checked, code_despite};
 use crate::output;
 
 /// Read all of a recording and say whether it is whole
@@ -28,11 +28,11 @@ pub(crate) struct Check {
 impl Check {
     pub(crate) fn run(self) -> anyhow::Result<ExitCode> {
         let report = checked(&self.path);
-        match self.json {
-            true => output::json(&report)?,
-            false => output::text(&said(&report)?)?,
-        }
-        Ok(ExitCode::from(code(report.verdict)))
+        let printed = match self.json {
+            true => output::json(&report),
+            false => output::text(&said(&report)?),
+        };
+        Ok(code_despite(printed, code(report.verdict)))
     }
 }
 

@@ -6,8 +6,8 @@ use std::process::ExitCode;
 use clap::{Args, ValueHint};
 use recording::check::Verdict;
 
-use super::guard::checked;
 use super::text;
+use super::{checked, code_despite};
 use crate::output;
 
 /// What a recording holds: topics, rates, gaps, stamps, QoS, types
@@ -26,13 +26,14 @@ pub(crate) struct Info {
 impl Info {
     pub(crate) fn run(self) -> anyhow::Result<ExitCode> {
         let report = checked(&self.path);
-        match self.json {
-            true => output::json(&report)?,
-            false => output::text(&text::overview(&report)?)?,
-        }
-        Ok(match report.verdict {
-            Verdict::Unreadable => ExitCode::from(2),
-            Verdict::Whole | Verdict::Damaged => ExitCode::SUCCESS,
-        })
+        let printed = match self.json {
+            true => output::json(&report),
+            false => output::text(&text::overview(&report)?),
+        };
+        let code = match report.verdict {
+            Verdict::Unreadable => 2,
+            Verdict::Whole | Verdict::Damaged => 0,
+        };
+        Ok(code_despite(printed, code))
     }
 }

@@ -1,18 +1,17 @@
 //! `rhombus bag repair`: what can be read of a broken recording, as a new one.
 
 use std::fmt::Write;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use anyhow::anyhow;
 use clap::{Args, ValueHint};
 use recording::repair::{Repaired, default_output, repair};
+use rhombus_cli::guard::guarded;
 use signal_hook::consts::{SIGINT, SIGTERM};
 
-use super::guard::reason;
+use super::code_despite;
 use super::text::counted;
 use crate::output;
 
@@ -43,13 +42,12 @@ impl Repair {
         }
         let go_on = || !stopped.load(Ordering::Relaxed);
         // What was written until a panic goes with it.
-        let repaired = catch_unwind(AssertUnwindSafe(|| repair(&self.path, &output, &go_on)))
-            .map_err(|panic| anyhow!("{}: {}", self.path.display(), reason(panic.as_ref())))??;
-        match self.json {
-            true => output::json(&repaired)?,
-            false => output::text(&said(&repaired)?)?,
-        }
-        Ok(if repaired.all_saved { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+        let repaired = guarded(&self.path, || Ok(repair(&self.path, &output, &go_on)?))?;
+        let printed = match self.json {
+            true => output::json(&repaired),
+            false => output::text(&said(&repaired)?),
+        };
+        Ok(code_despite(printed, u8::from(!repaired.all_saved)))
     }
 }
 

@@ -6,21 +6,24 @@ use std::time::Instant;
 
 use anyhow::{Context, ensure};
 use clap::{Args, ValueHint};
-use recording::{Comparison, Digest, Outcome, Recording, Tolerances};
+use recording::{Comparison, Digest, Outcome, Recording, Tolerances, Verdict};
 use scene::topic;
 use serde::Serialize;
 
 use super::model::{Counts, Replay};
 use super::record::Record;
+use super::text::plural;
 use super::{json, junit, markdown, plot, text};
 use crate::assignments::Assignments;
+use crate::guard::guarded;
 use crate::output;
 
 /// Put the poses of a recording through the model again and compare what it answers, message by message
 ///
 /// No ROS is needed: the model is the one of the deformation node, time is in the stamps, and equal inputs give equal bits. Frames are
 /// those of the parameters and of recorded /tf and /tf_static. Exit code: 0 the same (or nothing to compare), 1 different, 2 it could not be
-/// compared.
+/// compared, as when a
+/// place in RECORDING or GOLDEN cannot be read.
 #[derive(Args)]
 pub struct ReplayCommand {
     /// Recording with the poses: a rosbag2 directory, or an .mcap or .db3 file
@@ -89,6 +92,10 @@ impl ReplayCommand {
     /// # Errors
     /// Something could not be read, replayed or written.
     pub fn run(&self) -> anyhow::Result<ExitCode> {
+        guarded(&self.recording, || self.judged())
+    }
+
+    fn judged(&self) -> anyhow::Result<ExitCode> {
         let scene = self.assignments.scene(&self.params)?;
         let recording = Recording::open(&self.recording)?;
         let golden = self.expect.as_ref().map(Recording::open).transpose()?;
@@ -123,12 +130,19 @@ impl ReplayCommand {
             }
             Ok(())
         })?;
-        let outcome = comparison.map(Comparison::finish);
+        let mut outcome = comparison.map(Comparison::finish);
         let elapsed_s = began.elapsed().as_secs_f64();
         if let Some(record) = record {
             record.close()?;
         }
         ensure!(counts.poses > 0, "{}: no pose could be read from it", self.recording.display());
+        if let Some(Outcome { verdict, .. }) = &mut outcome
+            && !matches!(verdict, Verdict::NotCompared(_))
+            && let Some(reason) = self.unread(&counts)
+        {
+            // What is the same, or differs, may be so because of what could not be read.
+            *verdict = Verdict::NotCompared(reason);
+        }
         let report = Report {
             recording: &self.recording,
             counts: &counts,
@@ -143,6 +157,15 @@ impl ReplayCommand {
             false => output::text(&in_words(&report, outcome.as_ref()))?,
         }
         Ok(ExitCode::from(outcome.map_or(0, |outcome| outcome.verdict.exit_code())))
+    }
+
+    /// Why not all of the recording was replayed.
+    fn unread(&self, counts: &Counts) -> Option<String> {
+        (counts.unreadable_places > 0).then(|| {
+            let places = plural(counts.unreadable_places, "place");
+            let path = self.recording.display();
+            format!("{places} of {path} could not be read; `rhombus bag check` says which, `rhombus bag repair` saves the rest")
+        })
     }
 
     fn write_reports(&self, outcome: Option<&Outcome>) -> anyhow::Result<()> {
@@ -167,25 +190,26 @@ impl ReplayCommand {
 fn in_words(report: &Report<'_>, outcome: Option<&Outcome>) -> String {
     let counts = report.counts;
     let mut words = format!(
-        "{}: {} poses over {:.1} s replayed in {:.2} s ({:.0} x real time), {} surfaces\n",
+        "{}: {} over {:.1} s replayed in {:.2} s ({:.0} x real time), {}\n",
         report.recording.display(),
-        counts.poses,
+        plural(counts.poses, "pose"),
         report.recorded_s,
         report.elapsed_s,
         report.recorded_s / report.elapsed_s.max(1e-9),
-        counts.surfaces,
+        plural(counts.surfaces, "surface"),
     );
     let causes = counts.rejected.iter().zip(rhombus_chain::Rejection::CAUSES);
     for (count, cause) in causes.filter(|(count, _)| **count > 0) {
-        words.push_str(&format!("{count} poses rejected: {cause}\n"));
+        words.push_str(&format!("{} rejected: {cause}\n", plural(*count, "pose")));
     }
     if counts.unusable > 0 {
-        words.push_str(&format!("{} messages of the model's inputs could not be used\n", counts.unusable));
+        let messages = plural(counts.unusable, "message");
+        words.push_str(&format!("{messages} of the model's inputs could not be used\n"));
     }
     if counts.unreadable_places > 0 {
         words.push_str(&format!(
-            "{} places of the recording could not be read; `rhombus bag check` says which\n",
-            counts.unreadable_places
+            "{} of the recording could not be read; `rhombus bag check` says which\n",
+            plural(counts.unreadable_places, "place")
         ));
     }
     words.push_str(&format!("SHA-256 of all forces and displacements: {}\n", report.sha256));

@@ -15,7 +15,7 @@ pub fn junit(outcome: &Outcome) -> String {
     let failures = count(|verdict| *verdict == Verdict::Different);
     let mut errors = count(|verdict| matches!(verdict, Verdict::NotCompared(_)));
     if let (Verdict::NotCompared(reason), 0) = (&outcome.verdict, errors) {
-        cases.push(element(outcome, "golden recording", Some(("error", reason, &text::verdict(outcome)))));
+        cases.push(element(outcome, "recordings", Some(("error", reason, &text::verdict(outcome)))));
         errors += 1;
     }
     let numbers =
@@ -82,10 +82,7 @@ mod tests {
         outcome.golden = "a<b>&\"c\"".into();
         outcome.verdict = Verdict::NotCompared("<cut>\nat \u{7}byte 5".to_owned());
         let xml = junit(&outcome);
-        assert!(
-            xml.contains("classname=\"a&lt;b&gt;&amp;&quot;c&quot;\" name=\"golden recording\""),
-            "{xml}"
-        );
+        assert!(xml.contains("classname=\"a&lt;b&gt;&amp;&quot;c&quot;\" name=\"recordings\""), "{xml}");
         assert!(
             xml.contains("<error message=\"&lt;cut&gt;&#10;at \u{fffd}byte 5\" type=\"error\">"),
             "{xml}"

@@ -192,7 +192,8 @@ fn runs(listed: &[Unpaired], count: u64) -> String {
     text
 }
 
-fn plural(count: u64, noun: &str) -> String {
+/// With its noun in the right number.
+pub(super) fn plural(count: u64, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }
 
