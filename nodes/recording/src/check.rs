@@ -199,8 +199,12 @@ impl Report {
                 }
                 let (one, other) = (&first.serialization_format, &second.serialization_format);
                 different.push(match one == other {
-                    true => format!("{name}: recorded with more than one definition of {type_name}; a replay needs one"),
-                    false => format!("{name}: messages encoded as {one:?} and as {other:?}; a replay needs one"),
+                    true => format!(
+                        "{name}: recorded with more than one definition of {type_name}; a replay needs one"
+                    ),
+                    false => {
+                        format!("{name}: messages encoded as {one:?} and as {other:?}; a replay needs one")
+                    }
                 });
             }
         }

@@ -165,17 +165,20 @@ pub(crate) fn load(
     }
     let damaged = |at: usize, reason: String| match is_compressed {
         false => Error::damaged(file.path(), offset + at as u64, reason),
-        true => Error::damaged(
-            file.path(),
-            offset,
-            format!("{reason}, at byte {at} of the decompressed chunk"),
-        ),
+        true => {
+            Error::damaged(file.path(), offset, format!("{reason}, at byte {at} of the decompressed chunk"))
+        }
     };
     let mut damage: Vec<Error> = fault.into_iter().collect();
     damage.extend(lost.first.map(|at| damaged(at, lost_inside(lost.count, is_compressed))));
     damage.extend(undescribed.first.map(|channel| {
         let count = undescribed.count;
-        damaged(0, format!("{count} messages of channels that are nowhere described, the first of channel {channel}"))
+        damaged(
+            0,
+            format!(
+                "{count} messages of channels that are nowhere described, the first of channel {channel}"
+            ),
+        )
     }));
     damage.extend(unlisted.first.map(|channel| {
         let count = unlisted.count;

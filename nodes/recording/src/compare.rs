@@ -103,7 +103,10 @@ fn recorded_as(golden: &Recording, name: &str, is_computed: bool) -> (Vec<usize>
     let type_name = topic.type_name.clone();
     let refused = if found.len() > 1 {
         let types: Vec<&str> = found.iter().map(|topic| topic.type_name.as_str()).collect();
-        Some(format!("the golden recording has it with several types, definitions or encodings: {}", types.join(", ")))
+        Some(format!(
+            "the golden recording has it with several types, definitions or encodings: {}",
+            types.join(", ")
+        ))
     } else if Kind::of(&type_name).is_none() {
         let accepted: Vec<&str> = Kind::ALL.iter().map(|kind| kind.type_name()).collect();
         Some(format!("the golden recording has it as {type_name:?}; compared are {}", accepted.join(", ")))

@@ -53,7 +53,9 @@ pub(crate) fn decompress(compression: &str, stored: Vec<u8>, size: u64) -> (Vec<
         Ok(_) if bytes.len() as u64 != size => {
             let than = if bytes.len() as u64 > size { "more" } else { "less" };
             let stored = stored.len();
-            Some(format!("a chunk of {stored} bytes that decompresses to {than} than the {size} bytes it says"))
+            Some(format!(
+                "a chunk of {stored} bytes that decompresses to {than} than the {size} bytes it says"
+            ))
         }
         Ok(_) => None,
     };

@@ -252,7 +252,8 @@ impl<'a> Walk<'a> {
         if !is_plain {
             let Some(left) = self.allowance.checked_sub(chunk.size.min(MAX_BLOCK_BYTES)) else {
                 self.note_at(offset, || {
-                    "a chunk behind others that decompress to more than is accepted of a file of this size".to_owned()
+                    "a chunk behind others that decompress to more than is accepted of a file of this size"
+                        .to_owned()
                 });
                 return Ok(end);
             };

@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use crate::cdr::{Decoder, Encoder, Fault, Message, Shape, Wire};
 
-pub use definition::same_definition;
 pub(crate) use definition::fields_of;
+pub use definition::same_definition;
 pub use text::own_definition;
 
 /// Defines a struct with the fields of a message and their order on the wire.

@@ -91,7 +91,8 @@ impl<'a> Pieces<'a> {
         let until = from.saturating_add(most).min(self.bytes.len());
         for offset in from..until {
             self.left = self.left.saturating_sub(1);
-            let is_candidate = matches!(self.bytes.get(offset), Some(&(op::SCHEMA | op::CHANNEL | op::MESSAGE)));
+            let is_candidate =
+                matches!(self.bytes.get(offset), Some(&(op::SCHEMA | op::CHANNEL | op::MESSAGE)));
             if is_candidate && self.is_sure(offset, &is_known) {
                 return offset;
             }

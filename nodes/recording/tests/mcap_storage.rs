@@ -55,12 +55,14 @@ fn flipped_bits_inside_a_chunk_cost_one_message_or_what_no_longer_decompresses_a
             let chunk = chunks(&bytes)[3].clone();
             bytes[(chunk.start + chunk.end) / 2] ^= 0x55;
             let (found, damage, errors) = contents(&bytes);
-            let others: Vec<_> = found.iter().copied().filter(|number| !(300..400).contains(number)).collect();
+            let others: Vec<_> =
+                found.iter().copied().filter(|number| !(300..400).contains(number)).collect();
             assert_eq!(others, (0..300).chain(400..1000).collect::<Vec<_>>(), "{shape:?}");
             if shape.compression.is_none() {
                 assert_eq!(found.len(), 999);
             }
-            let told: Vec<_> = damage.iter().chain(&errors).filter(|told| told.contains("chunk of")).collect();
+            let told: Vec<_> =
+                damage.iter().chain(&errors).filter(|told| told.contains("chunk of")).collect();
             assert_eq!(told.len(), 1, "{damage:?} {errors:?}");
             assert!(told[0].contains("at byte"), "{told:?}");
             if !summary {
@@ -88,7 +90,10 @@ fn any_bit_of_a_message_in_a_plain_chunk_costs_that_message_at_most() {
                 assert!(sequences.contains(&number), "{number} is lost with bit {bit}");
             }
             assert!(messages.len() <= 60);
-            assert!(!checksums || errors.iter().any(|error| error.to_string().contains("checksum")), "bit {bit}");
+            assert!(
+                !checksums || errors.iter().any(|error| error.to_string().contains("checksum")),
+                "bit {bit}"
+            );
         }
     }
 }
@@ -103,7 +108,10 @@ fn a_hole_of_zeros_in_a_plain_chunk_costs_the_messages_it_is_in() {
         bytes[begin..begin + 50 * size].fill(0);
         let (found, damage, errors) = contents(&bytes);
         assert!(found.len() >= 1000 - 52, "{}", found.len());
-        assert!(damage.iter().chain(&errors).any(|sentence| sentence.contains(told)), "{damage:?} {errors:?}");
+        assert!(
+            damage.iter().chain(&errors).any(|sentence| sentence.contains(told)),
+            "{damage:?} {errors:?}"
+        );
     }
 }
 
@@ -378,16 +386,19 @@ fn an_index_that_lists_other_channels_hides_no_message_of_a_topic_and_is_said() 
 #[test]
 fn large_chunks_that_overlap_in_time_are_merged_without_a_loss_in_little_memory() {
     let mut bytes = std::io::Cursor::new(Vec::new());
-    let mut writer =
-        mcap::WriteOptions::new().compression(None).chunk_size(None).create(&mut bytes).unwrap();
+    let mut writer = mcap::WriteOptions::new().compression(None).chunk_size(None).create(&mut bytes).unwrap();
     let poses = writer.add_channel(0, "/pose", "cdr", &Default::default()).unwrap();
     let images = writer.add_channel(0, "/image", "cdr", &Default::default()).unwrap();
     for chunk in 0..3 {
         for number in (chunk..900).step_by(3) {
             let mut put = |channel_id, data: &[u8]| {
                 let time = log_time_ns(number);
-                let header =
-                    mcap::records::MessageHeader { channel_id, sequence: 0, log_time: time, publish_time: time };
+                let header = mcap::records::MessageHeader {
+                    channel_id,
+                    sequence: 0,
+                    log_time: time,
+                    publish_time: time,
+                };
                 writer.write_to_known_channel(&header, data).unwrap();
             };
             put(poses, &encode(&pose(number)));

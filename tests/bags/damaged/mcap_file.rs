@@ -80,7 +80,13 @@ fn flips(bytes: &[u8]) -> Vec<Case> {
     other_channel[index.begin + HEAD + 32 + 4] ^= 4;
     other_channel[footer.begin + HEAD + 16..footer.begin + HEAD + 20].fill(0);
     vec![
-        Case::file("hole_in_chunk.mcap", Damaged, &["checksum", "broken records"], whole::MESSAGES - 150, hole),
+        Case::file(
+            "hole_in_chunk.mcap",
+            Damaged,
+            &["checksum", "broken records"],
+            whole::MESSAGES - 150,
+            hole,
+        ),
         Case::file(
             "flipped_channel_in_index.mcap",
             Damaged,
