@@ -226,3 +226,86 @@ fn a_compressed_file_that_is_cut_is_read_up_to_there_and_a_bomb_is_refused_in_ti
     let error = Recording::open(&path).unwrap_err().to_string();
     assert!(error.contains("session_0.mcap.zstd") && error.contains("zstd"), "{error}");
 }
+
+#[test]
+fn what_is_no_regular_file_is_refused_without_waiting_for_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name);
+    let pipe =
+        |path: &Path| assert!(std::process::Command::new("mkfifo").arg(path).status().unwrap().success());
+    for name in ["pipe.mcap", "pipe.db3", "pipe.mcap.zstd"] {
+        pipe(&at(name));
+    }
+    std::os::unix::fs::symlink("/dev/zero", at("device.mcap")).unwrap();
+    std::fs::create_dir(at("session")).unwrap();
+    std::fs::write(at("session").join("session_0.mcap"), file(PLAIN, 0..10, 10)).unwrap();
+    pipe(&at("session").join("metadata.yaml"));
+    // Whoever opens a pipe waits until somebody writes into it, so this is done beside the test.
+    let (sender, receiver) = std::sync::mpsc::sync_channel(1);
+    let names = ["pipe.mcap", "pipe.db3", "pipe.mcap.zstd", "device.mcap"].map(at);
+    let session = at("session");
+    let beside = std::thread::Builder::new().name("opens pipes".to_owned());
+    let opening = beside.spawn(move || {
+        let refusals = names.map(|name| Recording::open(name).unwrap_err().to_string());
+        let session = Recording::open(session).unwrap();
+        sender.send((refusals, session)).unwrap();
+    });
+    assert!(opening.is_ok());
+    let (refusals, session) = receiver.recv_timeout(std::time::Duration::from_secs(60)).unwrap();
+    for refusal in &refusals {
+        assert!(refusal.contains("no regular file"), "{refusal}");
+    }
+    let told = session.metadata_disagreements();
+    assert!(told.len() == 1 && told[0].contains("metadata.yaml: it is no regular file"), "{told:?}");
+    assert_eq!(read(&session).0.len(), 10);
+}
+
+#[test]
+fn a_recording_of_more_parts_than_a_process_may_open_is_read() {
+    let directory = tempfile::tempdir().unwrap();
+    for part in 0..300 {
+        let path = directory.path().join(format!("session_{part}.mcap"));
+        std::fs::write(path, file(PLAIN, 3 * part..3 * part + 3, 3)).unwrap();
+    }
+    let open_files = || std::fs::read_dir("/proc/self/fd").unwrap().count();
+    let before = open_files();
+    let recording = Recording::open(directory.path()).unwrap();
+    assert!(open_files() < before + 150, "{before} files open before, {} with it", open_files());
+    assert!(recording.damage().is_empty());
+    assert_eq!(numbers(&read(&recording).0), (0..900).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_topic_with_two_definitions_is_two_topics_and_one_with_other_comments_is_one() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = "std_msgs/Header header\ngeometry_msgs/Pose pose\n";
+    let described = |text: &str, format: &str| {
+        let mut topic = topic("/pose");
+        topic.definition.text = text.to_owned();
+        topic.serialization_format = format.to_owned();
+        topic
+    };
+    let with = |name: &str, variants: &[recording::Topic]| {
+        let path = directory.path().join(name);
+        let mut writer = recording::Writer::create(&path, "jazzy").unwrap();
+        for (number, topic) in (0..).zip(variants) {
+            let id = writer.add_topic(topic.clone()).unwrap();
+            write(&mut writer, id, 10 * number..10 * number + 10);
+        }
+        writer.close().unwrap();
+        Recording::open(path).unwrap()
+    };
+    let counts = |recording: &Recording| {
+        assert!(recording.metadata_disagreements().is_empty(), "{:?}", recording.metadata_disagreements());
+        recording.topics().iter().map(|found| found.message_count).collect::<Vec<_>>()
+    };
+    let other = described(&text.replace("pose\n", "elsewhere\n"), "cdr");
+    let two = with("definitions", &[described(text, "cdr"), other]);
+    assert_eq!(counts(&two), [10, 10]);
+    assert_eq!(two.topics()[1].topic.definition.text, text.replace("pose\n", "elsewhere\n"));
+    assert_eq!(two.messages_of(&[1]).count(), 10);
+    assert_eq!(counts(&with("encodings", &[described(text, "cdr"), described(text, "json")])), [10, 10]);
+    let commented = described(&format!("# Where the handle is.\n{text}"), "cdr");
+    let one = with("comments", &[described(text, "cdr"), commented, described("", "cdr")]);
+    assert_eq!(counts(&one), [30]);
+}

@@ -1,5 +1,6 @@
 //! rosbag2's SQLite storage: every version of its schema, the order of messages, and a directory that stays as it was.
 #![cfg(feature = "sqlite")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests, which may panic")]
 
 mod database;
 

@@ -1,5 +1,6 @@
 //! Broken and hostile databases: what can be read is read, what is lost is said, and nothing is executed.
 #![cfg(feature = "sqlite")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests, which may panic")]
 
 mod database;
 

@@ -13,8 +13,7 @@ const SIZE: usize = 10_000_000;
 
 /// What a check says of them does not matter, as long as it says it in time.
 pub fn cases() -> Vec<Case> {
-    let databases = hostile_database::files().into_iter().map(|(name, bytes)| file(name, bytes)).collect();
-    [rows(), bombs(), texts(), metadata(), databases].into_iter().flatten().collect()
+    [rows(), bombs(), texts(), walks(), metadata()].into_iter().flatten().collect()
 }
 
 fn file(name: &'static str, bytes: Vec<u8>) -> Case {
@@ -165,6 +164,83 @@ fn texts() -> Vec<Case> {
     ]
 }
 
+/// Files that are small and unpack, or look, like a great many definitions.
+fn walks() -> Vec<Case> {
+    let (_, bytes) = whole::bytes();
+    let chunk = chunks(&bytes)[0];
+    let begin = &bytes[..chunk.begin];
+    let packed = |inside: &[u8]| {
+        let stored = zstd::bulk::compress(inside, 3).unwrap();
+        let mut made = recompressed(&bytes, chunk, "zstd", &stored, inside.len() as u64);
+        made[records::HEAD + 24..records::HEAD + 28].fill(0);
+        made
+    };
+    let text = |text: &[u8]| [&(text.len() as u32).to_le_bytes(), text].concat();
+    let schema = |id: u16, definition: &[u8]| {
+        let name = text(b"geometry_msgs/msg/PoseStamped");
+        record(op::SCHEMA, &[&id.to_le_bytes()[..], &name, &text(b"ros2msg"), &text(definition)].concat())
+    };
+    let channel = |id: u16, pairs: &[u8]| {
+        let name = text(format!("/{id}").as_bytes());
+        record(op::CHANNEL, &[&id.to_le_bytes()[..], &[0, 0], &name, &text(b"cdr"), &text(pairs)].concat())
+    };
+    let long = vec![b'#'; 50 << 20];
+    let schemas: Vec<u8> = (0..30).flat_map(|id| packed(&schema(10 + id, &long))).collect();
+    let unreadable = packed(&record(op::SCHEMA, &[]).repeat((60 << 20) / 9)).repeat(30);
+    let cut_texts = packed(&record(op::SCHEMA, &[0xff; 14]).repeat((60 << 20) / 23)).repeat(30);
+    let different = (0..3_000_000_u32).flat_map(|key| [text(&key.to_le_bytes()), text(&[])].concat());
+    let keys = packed(&channel(9, &different.collect::<Vec<_>>())).repeat(20);
+    let qos = "- {history: 1, depth: 1, reliability: 1, durability: 1, deadline: {sec: 0, nsec: 0}, lifespan: {sec: 0, nsec: 0}, \
+               liveliness: 1, liveliness_lease_duration: {sec: 0, nsec: 0}, avoid_ros_namespace_conventions: false}\n"
+        .repeat(1200);
+    let with_qos = [text(b"offered_qos_profiles"), text(qos.as_bytes())].concat();
+    let offers: Vec<u8> = (0..16_u16)
+        .flat_map(|part| {
+            packed(&(0..200).flat_map(|id| channel(100 + part * 200 + id, &with_qos)).collect::<Vec<_>>())
+        })
+        .collect();
+    // Metadata whose map goes on for half a megabyte and then does not add up, one beginning behind each other.
+    let mut maps = Vec::new();
+    while maps.len() < 9_000_000 {
+        let (count, map) = (38_000, 500_003_u32);
+        let end = maps.len() + count * 13;
+        for _ in 0..count {
+            let behind = (maps.len() + 13) as u64;
+            let name = end as u64 - behind;
+            maps.push(op::METADATA);
+            maps.extend((name + 4 + 4 + u64::from(map)).to_le_bytes());
+            maps.extend((name as u32).to_le_bytes());
+        }
+        maps.extend(map.to_le_bytes());
+        maps.resize(maps.len() + map as usize, 0);
+    }
+    let whole_file = |piece: &[u8]| {
+        let mut encoder = zstd::stream::Encoder::new(Vec::new(), 3).unwrap();
+        encoder.write_all(begin).unwrap();
+        let many = piece.repeat((1 << 20) / piece.len());
+        (0..1024).for_each(|_| encoder.write_all(&many).unwrap());
+        encoder.finish().unwrap()
+    };
+    let behind_begin = |more: &[u8]| [begin, more].concat();
+    vec![
+        file("definitions_in_chunks.mcap", behind_begin(&schemas)),
+        file("unreadable_definitions.mcap", behind_begin(&unreadable)),
+        file("definitions_with_cut_texts.mcap", behind_begin(&cut_texts)),
+        file("channel_with_many_keys.mcap", behind_begin(&keys)),
+        file("qos_of_many_channels.mcap", behind_begin(&offers)),
+        file("maps_that_go_on.mcap", behind_begin(&maps)),
+        file("schemas.mcap.zstd", whole_file(&record(op::SCHEMA, &[]))),
+        file("chunks.mcap.zstd", whole_file(&record(op::CHUNK, &[]))),
+        file(
+            "messages.mcap.zstd",
+            whole_file(&record(
+                op::MESSAGE,
+                &[1, 0, 0, 0, 0, 0, 5, 0, 0, 0, 0, 0, 0, 0, 5, 0, 0, 0, 0, 0, 0, 0],
+            )),
+        ),
+    ]
+}
+
 fn metadata() -> Vec<Case> {
     let (metadata, bytes) = whole::bytes();
     let metadata = String::from_utf8(metadata).unwrap();
@@ -186,7 +262,41 @@ fn metadata() -> Vec<Case> {
         with("metadata_aliases", aliases()),
         with("metadata_long_text", metadata.replace("jazzy", &"x".repeat(9_000_000))),
         with("metadata_many_files", metadata.replace(files, &many)),
+        many_topics(&metadata),
     ]
+}
+
+/// Metadata and a file with tens of thousands of topics that are not the same.
+fn many_topics(metadata: &str) -> Case {
+    let file = row_of(|number| {
+        let name = format!("/{number}");
+        let mut content = [&(number as u16).to_le_bytes()[..], &[0, 0]].concat();
+        for text in [name.as_str(), "cdr"] {
+            content.extend((text.len() as u32).to_le_bytes());
+            content.extend(text.as_bytes());
+        }
+        content.extend([0; 4]);
+        if number < 60_000 { record(op::CHANNEL, &content) } else { vec![0; SIZE] }
+    });
+    let topics = "  topics_with_message_count:\n";
+    let many: String = (100_000..140_000)
+        .map(|number| {
+            format!("    - {{topic_metadata: {{name: /{number}, type: a/B, serialization_format: cdr}}, message_count: 0}}\n")
+        })
+        .collect();
+    Case {
+        name: "metadata_many_topics",
+        expected: Expected::Damaged,
+        words: &[],
+        readable: 0,
+        files: vec![
+            (
+                PathBuf::from("metadata.yaml"),
+                metadata.replace(topics, &format!("{topics}{many}")).into_bytes(),
+            ),
+            (PathBuf::from("session_0.mcap"), file),
+        ],
+    }
 }
 
 /// Each level is the one before ten times.

@@ -1,4 +1,5 @@
 //! Databases for tests, built as the versions of rosbag2 build them: what a message contains follows from its number.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may panic")]
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use std::ops::Range;
