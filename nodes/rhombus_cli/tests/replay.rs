@@ -199,7 +199,7 @@ fn one_stamp_one_message_more_and_one_message_less_are_found_where_they_are() {
     };
     check("stamp", &later, "message #700");
     check("less", &|n, m| if n == 700 { vec![] } else { vec![m.data.to_vec()] }, "1 missing");
-    check("more", &|n, m| vec![m.data.to_vec(); if n == 700 { 2 } else { 1 }], "1 extra");
+    check("more", &|n, m| vec![m.data.to_vec(); if n == 700 { 2 } else { 1 }], "1 too many");
 }
 
 /// Before 2021 CRTK's poses were transforms.
@@ -319,8 +319,8 @@ fn poses_that_are_none_are_answered_with_no_force_and_cost_no_other() {
             _ => {}
         }
     });
-    assert_eq!((&report["poses"], &report["rejected"][0]), (&1500.into(), &4.into()), "{report}");
-    assert_eq!(report["rejected"][1], 1, "{report}");
+    // Not finite, no rotation, out of reach.
+    assert_eq!((&report["poses"], &report["rejected"]), (&1500.into(), &serde_json::json!([3, 1, 0, 0, 1])));
     assert_eq!(forces.iter().map(|(stamp, _)| stamp.clone()).collect::<Vec<_>>(), stamps, "each is answered");
     assert!(forces[400..405].iter().all(|(_, force)| *force == NO_FORCE));
     assert!(forces[399].1 != NO_FORCE && forces[410].1 != NO_FORCE, "in contact before and behind");
@@ -397,6 +397,7 @@ fn what_cannot_be_read_on_either_side_is_no_agreement() {
         let output = replay(&recording, &["--expect", &expected, "--json"]);
         let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!((code(&output), &report["comparison"]["verdict"]), (2, &"not compared".into()));
-        assert!(report["comparison"]["reason"].as_str().unwrap().contains("read"), "{report}");
+        let reason = report["comparison"]["reason"].as_str().unwrap();
+        assert!(reason.contains(words), "{reason}");
     }
 }

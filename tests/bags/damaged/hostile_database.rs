@@ -129,7 +129,7 @@ fn shared_texts() -> Vec<u8> {
             row.extend(varint(id));
             row.extend(content);
             row.extend(LOOP.to_be_bytes());
-            if end - row.len() < 8 + 2 * (count + 1) {
+            if end < row.len() + 8 + 2 * (count + 1) {
                 break;
             }
             end -= row.len();

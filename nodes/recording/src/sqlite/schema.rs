@@ -94,11 +94,11 @@ impl Describer {
     /// What was left out, a sentence each.
     pub(super) fn damage(&self) -> Vec<String> {
         let definitions = format!(
-            "definitions of more than {DEFINITIONS_BYTES} bytes altogether; those of {} topics are left out",
+            "definitions of more than {DEFINITIONS_BYTES} bytes altogether; topics left without theirs: {}",
             self.without_definition
         );
         let qos = format!(
-            "qualities of service of more than {QOS_BYTES} bytes, or {ALL_QOS_BYTES} altogether; those of {} topics are left out",
+            "qualities of service of more than {QOS_BYTES} bytes, or {ALL_QOS_BYTES} altogether; topics left without theirs: {}",
             self.without_qos
         );
         let sentences = [(self.without_definition, definitions), (self.without_qos, qos)];
@@ -131,7 +131,7 @@ impl Budget {
         let refused = self.refused;
         let sentence = || {
             format!(
-                "topics and definitions that claim more bytes than the file has; those of {refused} rows are left out"
+                "topics and definitions that claim more bytes than the file has; rows left out: {refused}"
             )
         };
         (refused > 0).then(sentence).into_iter().collect()
