@@ -172,7 +172,10 @@ def listener(executable, what, arm):
     def arm_it(rig):
         program = getattr(rig, executable, None)
         if program is None or program.process.poll() is not None:
-            setattr(rig, executable, rig.start(executable))
+            # The tests keep discovery to this machine, where the middleware adds shared memory by itself; who only listens
+            # listens as in a session.
+            setattr(rig, executable, rig.start(executable, {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}))
+            rig.peer.wait_for(lambda: rig.peer.node.count_subscribers("contact_state") > 0, "who listens")
         return arm(executable)(rig)
 
     return Fault({"bag_replay": "recorder"}.get(executable, executable), what, arm_it, "never")

@@ -106,10 +106,11 @@ class Rig:
             self.close()
             raise
 
-    def start(self, executable):
+    def start(self, executable, environment=None):
         """Another process of the session, in a folder of its own."""
         folder = self.folder / str(next(self.numbers))
-        program = Program(folder, executable, {**self.values, "recording.directory": str(folder / "recordings")})
+        values = {**self.values, "recording.directory": str(folder / "recordings")}
+        program = Program(folder, executable, values, environment=environment)
         self.programs.append(program)
         try:
             return program.wait_ready()

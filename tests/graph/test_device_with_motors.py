@@ -27,7 +27,7 @@ class Double:
     def events(self):
         """Event, force on the hand and gripper force of every line."""
         rows = [line.split(",") for line in self.file.read_text().splitlines()[1:]]
-        return [(row[1], tuple(map(float, row[2:5])), float(row[8])) for row in rows if len(row) == 9]
+        return [(row[1], tuple(map(float, row[2:5])), float(row[8])) for row in rows if len(row) == 10]
 
     def pull(self):
         self.process.send_signal(signal.SIGUSR1)

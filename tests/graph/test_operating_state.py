@@ -150,11 +150,10 @@ def test_the_emergency_stop_latches_a_fault_that_only_enable_clears_once_it_is_r
 def test_an_emergency_stop_that_is_released_at_once_is_a_fault_every_time(start, peer):
     start().wait_ready()
     desk = Desk(peer)
-    publisher = peer.publisher(Bool, "emergency_stop", reliable(10))
     for _ in range(20):
         count = len(desk.states)
-        publisher.publish(Bool(data=True))
-        publisher.publish(Bool(data=False))
+        desk.emergency_stop(True)
+        desk.emergency_stop(False)
         peer.wait_for(lambda: any(m.state == "FAULT" for m in desk.states[count:]), "a fault after a short press")
         peer.spin(0.1)
         assert desk.state() == "FAULT", "released is not cleared"
