@@ -13,7 +13,7 @@ const SIZE: usize = 10_000_000;
 
 /// What a check says of them does not matter, as long as it says it in time.
 pub fn cases() -> Vec<Case> {
-    [rows(), bombs(), texts(), walks(), metadata()].into_iter().flatten().collect()
+    [rows(), bombs(), texts(), walks(), metadata(), hostile_database::cases()].into_iter().flatten().collect()
 }
 
 fn file(name: &'static str, bytes: Vec<u8>) -> Case {

@@ -71,7 +71,7 @@ pub fn cases() -> Vec<Case> {
         }),
         logged("log_head_flipped", Damaged, &["broken heads in the log: 1"], COUNT, |log| log[17] ^= 1),
         logged("log_of_garbage", Damaged, &["log is broken", "bytes"], COUNT / 2, |log| {
-            (0..).zip(log.iter_mut()).for_each(|(at, byte): (usize, &mut u8)| *byte = (at * at >> 3) as u8);
+            (0..).zip(log.iter_mut()).for_each(|(at, byte): (usize, &mut u8)| *byte = ((at * at) >> 3) as u8);
         }),
         logged("log_of_a_killed_recorder", Damaged, &["metadata.yaml"], COUNT, |_| {}),
         file("other_tables.db3", Unreadable, &["other_tables.db3"], 0, other_tables),
