@@ -381,7 +381,7 @@ fn what_cannot_be_read_on_either_side_is_no_agreement() {
     assert_eq!(code(&output), 0, "{}", said(&output));
     assert!(said(&output).contains("place of the recording could not be read"), "{}", said(&output));
     for (recording, expected, words) in [
-        (path("press"), path("of_the_rest"), "of the recording could not be read"),
+        (path("press"), path("of_the_rest"), "could not be read"),
         (path("press"), whole, "could not be read"),
         (bag("press"), path("golden"), "the golden recording is damaged"),
     ] {
