@@ -103,14 +103,17 @@ fn a_device_that_a_foreign_program_commands_is_in_use_until_it_stops() {
     let (mut socket, _) = tungstenite::connect(&double.url).unwrap();
     let goes_on = Arc::new(AtomicBool::new(true));
     let theirs = goes_on.clone();
-    let foreign = std::thread::spawn(move || {
-        let push = r#"{"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0.5,"y":0,"z":0}}}}]}"#;
-        while theirs.load(Relaxed) {
-            socket.send(tungstenite::Message::text(push)).unwrap();
-            socket.read().unwrap();
-            std::thread::sleep(Duration::from_millis(1));
-        }
-    });
+    let foreign = std::thread::Builder::new().name("foreign".to_owned());
+    let foreign = foreign
+        .spawn(move || {
+            let push = r#"{"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0.5,"y":0,"z":0}}}}]}"#;
+            while theirs.load(Relaxed) {
+                socket.send(tungstenite::Message::text(push)).unwrap();
+                socket.read().unwrap();
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        })
+        .unwrap();
     eventually("pressing", || double.record().last().is_some_and(|line| line.2 != DVec3::ZERO));
     assert!(refusal(double.settings()).contains("049D is in use by another program"));
     assert!(
