@@ -1,5 +1,4 @@
 //! The committed recordings are what the committed script makes, byte for byte.
-#![expect(clippy::unwrap_used, reason = "a test may fail here")]
 
 #[path = "../examples/make_bags.rs"]
 #[allow(dead_code, unreachable_pub, reason = "its command line is not used here")]
