@@ -1,5 +1,4 @@
 //! A session: several devices on one body, frames that are heard, surfaces at a rate of stamps.
-#![expect(clippy::unwrap_used, reason = "a test may fail here")]
 
 mod common;
 
@@ -62,7 +61,7 @@ fn a_pose_is_placed_by_the_frames_that_were_heard_last() {
 #[test]
 fn a_gripper_below_its_angle_and_a_commanded_grasp_both_hold_the_surface() {
     let mut session = session(1, 0.0);
-    let mut mode =
+    let mode =
         |session: &mut Session, ms| answer(session, 0, ms, "body", pressed(0.01, 0.002)).unwrap().step.mode;
     assert_eq!(mode(&mut session, 0), Mode::Contact);
     assert!(session.hear_gripper(0, Some(0.1)));

@@ -24,7 +24,6 @@ mod tests {
     use super::*;
 
     #[test]
-    #[expect(clippy::panic, reason = "it is what the guard is for")]
     fn a_panic_is_an_error_that_names_the_file_and_the_reason() {
         let panics = || -> anyhow::Result<()> { panic!("index 7 of {}", 3) };
         let error = guarded(Path::new("a/b.mcap"), panics).unwrap_err().to_string();
