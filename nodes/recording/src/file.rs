@@ -44,7 +44,8 @@ impl KeptOpen {
     fn new(file: File) -> Option<Self> {
         let one_more = |kept| (kept < MOST_KEPT_OPEN).then_some(kept + 1);
         let has_room = KEPT_OPEN.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more).is_ok();
-        has_room.then_some(Self(file))
+        // Made only then: dropping one counts it off.
+        has_room.then(|| Self(file))
     }
 }
 
