@@ -157,6 +157,8 @@ impl<'a> Collector<'a> {
         let accepted = match accepted {
             Ok(accepted) => accepted,
             Err(refusal) => {
+                // What could not be measured was too much: nothing behind it is measured either.
+                self.spent = self.spent.or((refusal == Refusal::Bomb).then_some(refusal));
                 self.refused.entry(refusal).or_insert(Refused { count: 0, first: *row }).count += 1;
                 return Taken::No;
             }
