@@ -22,6 +22,8 @@ pub(crate) struct FileIndex {
     pub(crate) blocks: Vec<Block>,
     /// What had to be left out, and why.
     pub(crate) damage: Vec<Error>,
+    /// The counts are those that its recorder wrote, and not of what is found.
+    pub(crate) is_counted: bool,
 }
 
 /// A piece of a file that is loaded at once. Pieces may overlap in time.

@@ -38,7 +38,7 @@ pub(crate) fn of(file: &McapFile, allowance: u64) -> Result<FileIndex, Error> {
         if walk.agrees_with(summary) {
             walk.definitions = summary.definitions.clone();
             walk.counts.clone_from(&summary.statistics.channel_message_counts);
-            return Ok(walk.finish());
+            return Ok(FileIndex { is_counted: true, ..walk.finish() });
         }
         lie = walk.lie;
     }
@@ -447,7 +447,7 @@ impl<'a> Walk<'a> {
         let (topics, left_out) = self.definitions.topics(&self.counts);
         let left_out = left_out.map(|reason| self.damaged(end, reason));
         self.damage.extend(left_out);
-        FileIndex { topics, blocks: self.blocks, damage: self.damage }
+        FileIndex { topics, blocks: self.blocks, damage: self.damage, is_counted: false }
     }
 }
 

@@ -23,6 +23,8 @@ pub struct Recording {
     blocks: Vec<Located>,
     damage: Vec<Error>,
     disagreements: Vec<String>,
+    /// Files whose recorder did not say how many messages they have.
+    uncounted: usize,
 }
 
 /// A recorded message.
@@ -75,6 +77,7 @@ impl Recording {
             blocks: Vec::new(),
             damage: Vec::new(),
             disagreements: directory.disagreements,
+            uncounted: 0,
         };
         let mut variants = Variants::default();
         for file_path in directory.files {
@@ -102,6 +105,11 @@ impl Recording {
     /// definitions or encodings is there several times: what is true of one is not true of the others.
     pub fn topics(&self) -> &[RecordedTopic] {
         &self.topics
+    }
+
+    /// Whether a bare file says itself how many messages it has; of a directory a whole file may be missing.
+    pub(crate) fn is_counted(&self) -> bool {
+        self.uncounted == 0 && self.path.is_file()
     }
 
     /// What was found broken on opening and is left out of everything else. Empty for a whole recording.
@@ -173,6 +181,7 @@ impl Recording {
         let number = self.files.len();
         self.blocks.extend(index.blocks.into_iter().map(|block| Located { file: number, block }));
         self.damage.extend(index.damage);
+        self.uncounted += usize::from(!index.is_counted);
         self.topic_of_channel.push(topic_of_channel);
         self.files.push(file);
     }

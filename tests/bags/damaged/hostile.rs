@@ -190,7 +190,8 @@ fn walks() -> Vec<Case> {
     let unreadable = packed(&record(op::SCHEMA, &[]).repeat((60 << 20) / 9)).repeat(30);
     let cut_texts = packed(&record(op::SCHEMA, &[0xff; 14]).repeat((60 << 20) / 23)).repeat(30);
     let different = (0..3_000_000_u32).flat_map(|key| [text(&key.to_le_bytes()), text(&[])].concat());
-    let keys = packed(&channel(9, &different.collect::<Vec<_>>())).repeat(20);
+    let keys = packed(&channel(9, &different.collect::<Vec<_>>()));
+    let keys = keys.repeat((SIZE - begin.len()) / keys.len());
     let qos = "- {history: 1, depth: 1, reliability: 1, durability: 1, deadline: {sec: 0, nsec: 0}, lifespan: {sec: 0, nsec: 0}, \
                liveliness: 1, liveliness_lease_duration: {sec: 0, nsec: 0}, avoid_ros_namespace_conventions: false}\n"
         .repeat(1200);
