@@ -77,16 +77,27 @@ fn a_warning_goes_to_stderr_and_into_the_json() {
 
 #[test]
 fn every_topic_of_the_nodes_is_explained_with_its_type_and_no_other() {
-    // The nodes' table needs ROS to compile, so it is read as text: `pub const X: Topic<Type> = Topic::new("name", ..)`.
+    // The nodes' table needs ROS to compile, so it is read as text: `pub const X: Topic<Type> = Topic::new("name", ..)`, or with
+    // `topic::NAME` in the place of the name, which is the scene's.
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../node_kit/src/topics.rs");
     let source = std::fs::read_to_string(path).expect("node_kit's topics");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scene/src/topic.rs");
+    let names = std::fs::read_to_string(path).expect("the scene's names");
+    let name_of = |constant: &str| {
+        let (_, value) =
+            names.split_once(&format!("pub const {constant}: &str = \"")).expect("a name of the scene");
+        value.split_once('"').expect("a text").0.to_owned()
+    };
     let nodes: BTreeSet<(String, String)> = source
         .split("pub const ")
         .filter_map(|item| {
             let message = item.split_once(": Topic<")?.1.split_once('>')?.0;
-            let name =
-                item.split_once("Topic::new(\"").or_else(|| item.split_once("Topic::new(\n        \""))?.1;
-            Some((name.split_once('"')?.0.to_owned(), message.to_owned()))
+            let name = item.split_once("Topic::new(")?.1.trim_start();
+            let name = match name.strip_prefix("topic::") {
+                Some(constant) => name_of(constant.split_once(',')?.0),
+                None => name.strip_prefix('"')?.split_once('"')?.0.to_owned(),
+            };
+            Some((name, message.to_owned()))
         })
         .collect();
     assert!(nodes.len() > 10, "{nodes:?}");

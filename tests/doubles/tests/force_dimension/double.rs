@@ -106,7 +106,7 @@ fn parse(line: &str) -> Line {
     let t_ns = words.next().unwrap().parse().unwrap();
     let event = words.next().unwrap().to_owned();
     let numbers: Vec<f64> = words.map(|word| word.parse().unwrap()).collect();
-    let [fx, fy, fz, tx, ty, tz, gripper_force_n] = numbers[..] else { panic!("{line}") };
+    let [fx, fy, fz, tx, ty, tz, gripper_force_n, _commands] = numbers[..] else { panic!("{line}") };
     let wrench =
         Wrench { force_n: DVec3::new(fx, fy, fz), torque_n_m: DVec3::new(tx, ty, tz), gripper_force_n };
     Line { t_ns, event, wrench }

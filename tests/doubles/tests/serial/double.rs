@@ -162,7 +162,7 @@ pub(crate) fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
 
 fn line(text: &str) -> Line {
     let fields: Vec<&str> = text.split(',').collect();
-    let numbers: Vec<f64> = fields[2..].iter().map(|field| field.parse().unwrap()).collect();
+    let numbers: Vec<f64> = fields[2..9].iter().map(|field| field.parse().unwrap()).collect();
     Line {
         t_ns: fields[0].parse().unwrap(),
         event: fields[1].to_owned(),
