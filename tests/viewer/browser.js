@@ -21,7 +21,7 @@ const ARGUMENTS = [
 ];
 
 /** Time that a busy machine may need for a first picture, ms. */
-const PATIENCE_MS = 30_000;
+const PATIENCE_MS = 120_000;
 
 export async function launch() {
   return chromium.launch({ executablePath, args: ARGUMENTS });
