@@ -82,7 +82,8 @@ impl<'a> Pieces<'a> {
             _ => opcode >= OF_APPLICATIONS,
         };
         let fits = is_long_enough && length <= (rest.len() - HEAD as usize) as u64;
-        fits.then_some((opcode, offset + HEAD as usize + length as usize))
+        // Added only then: a length may be anything.
+        fits.then(|| (opcode, offset + HEAD as usize + length as usize))
     }
 
     /// The first place from `from` on where records go on for sure; the end where there is none.
@@ -127,5 +128,20 @@ impl<'a> Pieces<'a> {
             offset = end;
         }
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_length_of_all_bits_fits_nowhere() {
+        let mut bytes = vec![op::MESSAGE];
+        bytes.extend([0xff; 8]);
+        bytes.extend([0; 40]);
+        let mut pieces = Pieces::new(&bytes, bytes.len() as u64);
+        assert!(matches!(pieces.next(|_| true), Some(Piece::Lost(range)) if range == (0..bytes.len())));
+        assert!(pieces.next(|_| true).is_none());
     }
 }
