@@ -11,7 +11,7 @@ pub(super) struct Tally<'a> {
     recording: &'a Recording,
     topics: Vec<Counts>,
     saved: u64,
-    /// `metadata.yaml`, or each file, says how many messages there were.
+    /// `metadata.yaml` says how many messages there were.
     announced: bool,
     /// There are places that cannot be read and may have held messages.
     unreadable: bool,
@@ -33,7 +33,7 @@ impl<'a> Tally<'a> {
             let announced = counted.of(&found.topic);
             Counts { recorded: found.message_count.max(announced), saved: 0, checksum: 0 }
         });
-        let announced = metadata.is_some_and(|metadata| metadata.message_count > 0) || recording.is_counted();
+        let announced = metadata.is_some_and(|metadata| metadata.message_count > 0);
         let unreadable = recording.damage().iter().any(costs_messages);
         Self { recording, topics: counts.collect(), saved: 0, announced, unreadable }
     }
@@ -68,7 +68,7 @@ impl<'a> Tally<'a> {
 
     pub(super) fn topics(&self) -> Vec<SavedTopic> {
         // A count above what was saved can only be one that the recording stored.
-        let known = self.announced || !self.unreadable || self.lost() > 0;
+        let known = self.announced || !self.unreadable || self.lost() > 0 || self.recording.is_counted();
         let names = self.recording.topics().iter().zip(&self.topics);
         let saved = names.map(|(found, counts)| SavedTopic {
             name: found.topic.name.clone(),

@@ -69,7 +69,7 @@ fn said(repaired: &Repaired) -> Result<String, std::fmt::Error> {
     let (saved, output) = (counted(repaired.saved, "message"), repaired.output.display());
     let lost = match (repaired.all_saved, repaired.lost) {
         (true, _) => "nothing lost".to_owned(),
-        (false, 0) => "how many are lost is not known: the recording does not say how many it had".to_owned(),
+        (false, 0) => "how many are lost, or are not as they were recorded, is not known".to_owned(),
         (false, lost) => format!("{lost} lost"),
     };
     writeln!(text, "{output}: whole: {saved} saved, {lost}")?;
