@@ -5,7 +5,8 @@
     "$RHOMBUS_PYTHON" tests/benches/viewer_page.py --csv viewer_page.csv
 
 The simulated hand presses the generated liver; headless Chromium looks at it at 1280x720 and counts updates in the page
-(tests/viewer/measure.js). The node's processor time is measured beside it, with the page and without (the baseline).
+(tests/viewer/measure.js). The node's processor time is measured beside it, with the page and without (the baseline). At
+the end the model is killed, and the page has to say so.
 """
 
 import argparse
@@ -20,7 +21,7 @@ from pathlib import Path
 from viewer_load import REPOSITORY, SETTLE_S, machine, processor_s, resident_mb, session
 
 COLUMNS = ["first_picture_ms", "received_hz", "applied_hz", "not_applied", "dropped", "pictures_hz", "cpu_percent", "rss_mb"]
-COLUMNS += ["cpu_percent_without_page"]
+COLUMNS += ["cpu_percent_without_page", "gone_said_ms"]
 
 
 def cpu_percent(node, seconds):
@@ -44,8 +45,17 @@ def measure(vertices, seconds):
             time.sleep(SETTLE_S)
             watched = cpu_percent(node, seconds)
             memory_mb = resident_mb(node)
-            said = json.loads(page.communicate(timeout=120)[0])
-            return {**said, "cpu_percent": watched, "rss_mb": memory_mb, "cpu_percent_without_page": alone}
+            said = json.loads(page.stdout.readline())
+            killed_s = time.time()
+            nodes["deformation"].kill()
+            gone_s = json.loads(page.communicate(timeout=120)[0])["gone_at_s"]
+            return {
+                **said,
+                "cpu_percent": watched,
+                "rss_mb": memory_mb,
+                "cpu_percent_without_page": alone,
+                "gone_said_ms": 1000 * (gone_s - killed_s),
+            }
         finally:
             for process in nodes.values():
                 process.kill()

@@ -1,4 +1,5 @@
-// What the page gets and applies, counted in the page: `node measure.js SECONDS`. Prints one line of JSON.
+// What the page gets and applies, counted in the page: `node measure.js SECONDS`. Prints one line of JSON; then, when the
+// page says that a publisher is gone, a second one with the time of day.
 
 import { launch, open, read, until } from "./browser.js";
 
@@ -31,5 +32,7 @@ console.log(JSON.stringify({
   pictures_hz: (last.pictures - first.pictures) / ((last.at - first.at) / 1000),
   renderer: await read(page, "renderer"),
 }));
+await page.waitForFunction(() => document.body.innerText.includes("Nothing comes on contact_state"), null, { polling: 10 });
+console.log(JSON.stringify({ gone_at_s: Date.now() / 1000 }));
 await close();
 await browser.close();

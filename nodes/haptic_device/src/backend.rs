@@ -9,39 +9,41 @@ use scene::Scene;
 ///
 /// # Errors
 /// The name is of a backend that was left out of this executable, or a setting does not fit the scene.
+#[cfg_attr(
+    not(any(feature = "simulated", feature = "pointer")),
+    expect(unused_variables, reason = "only a hand that is not real loads the body, and warns of it")
+)]
 pub(crate) fn backend(scene: &Scene, log: &Log) -> Result<Backend> {
-    let serial = || scene.device.serial.clone();
-    let p = scene.parameters();
     Ok(match scene.device.backend.as_str() {
         #[cfg(feature = "simulated")]
         "simulated" => Backend::Simulated(simulated_hand(scene, log)?),
         #[cfg(feature = "force_dimension")]
         "force_dimension" => Backend::ForceDimension(devices::force_dimension::Settings {
-            serial: serial(),
-            sdk: p.text("force_dimension.sdk")?.into(),
+            serial: scene.device.serial.clone(),
+            sdk: scene.parameters().text("force_dimension.sdk")?.into(),
             period_s: 1.0 / scene.device.rate_hz,
         }),
         #[cfg(feature = "haply")]
         "haply" => Backend::Haply(devices::haply::Settings {
-            url: p.text("haply.url")?.to_owned(),
-            serial: serial(),
-            grip: p.text("haply.grip")?.to_owned(),
-            max_force_n: p.double("haply.max_force")?,
+            url: scene.parameters().text("haply.url")?.to_owned(),
+            serial: scene.device.serial.clone(),
+            grip: scene.parameters().text("haply.grip")?.to_owned(),
+            max_force_n: scene.parameters().double("haply.max_force")?,
         }),
         #[cfg(feature = "serial")]
         "serial" => Backend::Serial(devices::serial::Settings {
-            port: p.text("serial.port")?.to_owned(),
+            port: scene.parameters().text("serial.port")?.to_owned(),
             // The schema keeps it within what fits.
-            baud: u32::try_from(p.integer("serial.baud")?).unwrap_or(u32::MAX),
-            serial: serial(),
+            baud: u32::try_from(scene.parameters().integer("serial.baud")?).unwrap_or(u32::MAX),
+            serial: scene.device.serial.clone(),
         }),
         #[cfg(feature = "spacemouse")]
         "spacemouse" => Backend::SpaceMouse(devices::spacemouse::Settings {
-            serial: serial(),
-            linear_speed_m_per_s: p.double("spacemouse.linear_speed")?,
-            angular_speed_rad_per_s: p.double("spacemouse.angular_speed")?,
-            full_scale: p.double("spacemouse.full_scale")?,
-            deadband: p.double("spacemouse.deadband")?,
+            serial: scene.device.serial.clone(),
+            linear_speed_m_per_s: scene.parameters().double("spacemouse.linear_speed")?,
+            angular_speed_rad_per_s: scene.parameters().double("spacemouse.angular_speed")?,
+            full_scale: scene.parameters().double("spacemouse.full_scale")?,
+            deadband: scene.parameters().double("spacemouse.deadband")?,
         }),
         #[cfg(feature = "pointer")]
         "pointer" => Backend::Pointer(pointer_hand(scene, log)?),

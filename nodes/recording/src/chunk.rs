@@ -82,9 +82,12 @@ pub(crate) fn inside(file: &McapFile, chunk: &Chunk) -> Result<Inside, Error> {
         return if bytes.is_empty() { Err(fault) } else { Ok(Inside { bytes, fault: Some(fault) }) };
     }
     let found = if chunk.crc == 0 { 0 } else { crc32fast::hash(&bytes) };
-    let size = bytes.len();
-    let fault = (found != chunk.crc).then(|| {
-        damaged(format!("a chunk of {size} bytes with checksum {found:08x} instead of {:08x}", chunk.crc))
+    let fault = (found != chunk.crc).then(|| Error::Altered {
+        path: file.path().to_owned(),
+        offset: chunk.records.start,
+        size: bytes.len(),
+        found,
+        recorded: chunk.crc,
     });
     Ok(Inside { bytes, fault })
 }

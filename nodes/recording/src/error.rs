@@ -48,6 +48,20 @@ pub enum Error {
         /// What is wrong there.
         reason: String,
     },
+    /// Bytes that can be read and are not those that were written: messages in them may have other values.
+    #[error("{} at byte {offset}: a chunk of {size} bytes with checksum {found:08x} instead of {recorded:08x}", path.display())]
+    Altered {
+        /// File.
+        path: PathBuf,
+        /// Where in the file.
+        offset: u64,
+        /// Of the chunk, decompressed.
+        size: usize,
+        /// Of what is there.
+        found: u32,
+        /// Of what was written.
+        recorded: u32,
+    },
     /// The end of a file says that its recorder was stopped hard. Nothing that was stored is lost by that.
     #[error("{} at byte {offset}: the file ends without its closing records: its recorder was stopped hard", path.display())]
     NotClosed {

@@ -82,7 +82,7 @@ pub struct Repaired {
     pub saved: u64,
     /// Messages known to be lost.
     pub lost: u64,
-    /// Whether every message that the old recording had is in the new one.
+    /// Whether every message that the old recording had is in the new one, as it was recorded.
     pub all_saved: bool,
     /// What was broken, a sentence each with its place.
     pub problems: Vec<String>,
@@ -127,7 +127,7 @@ pub fn repair(path: &Path, output: &Path, go_on: &dyn Fn() -> bool) -> Result<Re
                 ask(&tally, go_on)?;
             }
             Err(error) => {
-                tally.unreadable_place();
+                tally.damage(&error);
                 problems.add(error.to_string());
             }
         }

@@ -59,3 +59,19 @@ fn of_a_killed_recorder_everything_that_reached_the_disk_is_saved_and_the_result
     let problems = check(&output).problems;
     assert!(problems.iter().all(|problem| problem.contains("definition")), "{problems:?}");
 }
+
+#[test]
+fn messages_that_may_not_be_what_was_recorded_are_saved_and_not_called_all() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    recorded(&path, 100);
+    let file = path.join("session_0.mcap");
+    let mut bytes = std::fs::read(&file).unwrap();
+    let message = recording::cdr::encode(&pose(7));
+    let at = bytes.windows(message.len()).position(|window| window == message).unwrap();
+    bytes[at + message.len() - 1] ^= 1;
+    std::fs::write(&file, bytes).unwrap();
+    let repaired = repair(&path, &default_output(&path), &|| true).unwrap();
+    assert_eq!((repaired.saved, repaired.lost, repaired.all_saved), (100, 0, false), "{repaired:?}");
+    assert!(repaired.problems.iter().any(|problem| problem.contains("checksum")), "{repaired:?}");
+}

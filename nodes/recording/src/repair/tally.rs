@@ -15,6 +15,8 @@ pub(super) struct Tally<'a> {
     announced: bool,
     /// There are places that cannot be read and may have held messages.
     unreadable: bool,
+    /// There are messages that may not be what was recorded.
+    altered: bool,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -34,8 +36,10 @@ impl<'a> Tally<'a> {
             Counts { recorded: found.message_count.max(announced), saved: 0, checksum: 0 }
         });
         let announced = metadata.is_some_and(|metadata| metadata.message_count > 0);
-        let unreadable = recording.damage().iter().any(costs_messages);
-        Self { recording, topics: counts.collect(), saved: 0, announced, unreadable }
+        let mut tally =
+            Self { recording, topics: counts.collect(), saved: 0, announced, unreadable: false, altered: false };
+        recording.damage().iter().for_each(|damage| tally.damage(damage));
+        tally
     }
 
     pub(super) fn take(&mut self, message: &MessageRef<'_>) {
@@ -46,6 +50,12 @@ impl<'a> Tally<'a> {
             let data = u64::from(crc32fast::hash(message.data)) << 32 | u64::from(message.sequence);
             topic.checksum = topic.checksum.wrapping_add((times ^ data).wrapping_mul(0x9e37_79b9_7f4a_7c15));
         }
+    }
+
+    /// Missing closing records say nothing that the messages do not.
+    pub(super) fn damage(&mut self, damage: &Error) {
+        self.unreadable |= !matches!(damage, Error::NotClosed { .. });
+        self.altered |= matches!(damage, Error::Altered { .. });
     }
 
     pub(super) fn unreadable_place(&mut self) {
@@ -61,9 +71,9 @@ impl<'a> Tally<'a> {
         self.topics.iter().map(Counts::lost).sum()
     }
 
-    /// Whether nothing is missing and nothing could be missing.
+    /// Whether nothing is missing and nothing could be missing or be another thing than what was recorded.
     pub(super) fn all_saved(&self) -> bool {
-        self.lost() == 0 && (self.announced || !self.unreadable)
+        self.lost() == 0 && !self.altered && (self.announced || !self.unreadable)
     }
 
     pub(super) fn topics(&self) -> Vec<SavedTopic> {
@@ -110,9 +120,4 @@ impl Counts {
     fn lost(&self) -> u64 {
         self.recorded.saturating_sub(self.saved)
     }
-}
-
-/// Everything but missing closing records: those say nothing that the messages do not.
-fn costs_messages(damage: &Error) -> bool {
-    !matches!(damage, Error::NotClosed { .. })
 }
