@@ -121,6 +121,8 @@ def main():
 
         def recording(seconds):
             path = folder / f"{seconds}_s"
+            if path.exists():
+                return path / "session"
             run(PROGRAMS / "examples" / "make_bags", path, seconds)
             return path / "session"
 

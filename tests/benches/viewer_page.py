@@ -5,8 +5,9 @@
     "$RHOMBUS_PYTHON" tests/benches/viewer_page.py --csv viewer_page.csv
 
 The simulated hand presses the generated liver; headless Chromium looks at it at 1280x720 and counts updates in the page
-(tests/viewer/measure.js). The node's processor time is measured beside it, with the page and without (the baseline). At
-the end the model is killed, and the page has to say so.
+(tests/viewer/measure.js). Rates are those while the surface moves, by the stamps of its updates; `age_ms` is how old they
+are, by the median, when the page has them, which waits for its pictures. The node's processor time is measured beside it,
+with the page and without (the baseline). At the end the model is killed, and the page has to say so.
 """
 
 import argparse
@@ -20,7 +21,7 @@ from pathlib import Path
 
 from viewer_load import REPOSITORY, SETTLE_S, machine, processor_s, resident_mb, session
 
-COLUMNS = ["first_picture_ms", "received_hz", "applied_hz", "not_applied", "dropped", "pictures_hz", "cpu_percent", "rss_mb"]
+COLUMNS = ["first_picture_ms", "received_hz", "applied_hz", "not_applied", "dropped", "age_ms", "pictures_hz", "cpu_percent", "rss_mb"]
 COLUMNS += ["cpu_percent_without_page", "gone_said_ms"]
 
 

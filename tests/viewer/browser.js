@@ -27,8 +27,8 @@ export async function launch() {
   return chromium.launch({ executablePath, args: ARGUMENTS });
 }
 
-/** Opens the page and waits for its first picture. `close` fails when the page wrote an error to its console. */
-export async function open(browser, { address = url, width = 1280, height = 720, theme = "light", touch = false } = {}) {
+/** Opens the page, runs `script` in it before its own, and waits for its first picture. `close` fails when the page wrote an error to its console. */
+export async function open(browser, { address = url, width = 1280, height = 720, theme = "light", touch = false, script = null } = {}) {
   assert.ok(address, "RHOMBUS_VIEWER_URL is not set: the address of the page to look at, such as http://127.0.0.1:8080/");
   const context = await browser.newContext({
     viewport: { width, height },
@@ -38,6 +38,7 @@ export async function open(browser, { address = url, width = 1280, height = 720,
   });
   const page = await context.newPage();
   page.setDefaultTimeout(PATIENCE_MS);
+  if (script) await page.addInitScript(script);
   const errors = [];
   page.on("console", (message) => {
     if (message.type() === "error") errors.push(message.text());

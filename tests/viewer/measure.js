@@ -3,33 +3,49 @@
 
 import { launch, open, read, until } from "./browser.js";
 
+const SURFACE = 2;
+/** Surfaces whose stamps are farther apart than this are not of one motion: the hand rested or had lifted off. s */
+const ONE_MOTION_S = 0.1;
+
+/** In the page: stamp of every surface that its thread gets, and when it does, s. The socket is a worker's. */
+function noteSurfaces(surface) {
+  window.surfaces = [];
+  window.Worker = class extends Worker {
+    constructor(...source) {
+      super(...source);
+      this.addEventListener("message", ({ data }) => {
+        const view = data.type === "binary" ? new DataView(data.buffer) : null;
+        if (view?.getUint8(0) === surface) window.surfaces.push([view.getFloat64(16, true), Date.now() / 1000]);
+      });
+    }
+  };
+}
+
 const seconds = Number(process.argv[2] ?? 12);
 const browser = await launch();
-const { page, close } = await open(browser);
+const { page, close } = await open(browser, { script: `(${noteSurfaces})(${SURFACE})` });
 const firstPictureMs = await read(page, "first_picture_ms");
-// A surface that moves: while the hand touches, one update follows the other.
 await until(page, () => window.rhombus.moved.length > 0);
-const sample = async () => ({ at: Date.now(), ...(await read(page, "counters")) });
-const samples = [await sample()];
-while (samples.at(-1).at - samples[0].at < 1000 * seconds) {
-  await page.waitForTimeout(500);
-  samples.push(await sample());
-}
-const windows = samples.slice(1).map((now, i) => {
-  const before = samples[i];
-  const elapsed = (now.at - before.at) / 1000;
-  return { received: (now.received - before.received) / elapsed, applied: (now.applied - before.applied) / elapsed };
-});
-const middle = (values) => values.sort((a, b) => a - b)[Math.floor(values.length / 2)];
-// Half a second in which the hand lifts off has fewer updates: of all windows the one in the middle counts.
-const [first, last] = [samples[0], samples.at(-1)];
+const sample = () => page.evaluate(() => ({ s: performance.now() / 1000, surfaces: window.surfaces.length, ...window.rhombus.counters }));
+const first = await sample();
+await page.waitForTimeout(1000 * seconds);
+const last = await sample();
+const surfaces = await page.evaluate(([from, to]) => window.surfaces.slice(from, to), [first.surfaces, last.surfaces]);
+
+// While the surface moves one update follows the other.
+const pauses = surfaces.slice(1).map(([stamp], i) => stamp - surfaces[i][0]).filter((pause) => pause < ONE_MOTION_S);
+const ages = surfaces.map(([stamp, arrived]) => arrived - stamp).sort((a, b) => a - b);
+const received = last.received - first.received;
+const applied = last.applied - first.applied;
+const receivedHz = pauses.length / pauses.reduce((sum, pause) => sum + pause, 0);
 console.log(JSON.stringify({
   first_picture_ms: firstPictureMs,
-  received_hz: middle(windows.map((one) => one.received)),
-  applied_hz: middle(windows.map((one) => one.applied)),
-  not_applied: last.received - last.applied,
+  received_hz: receivedHz,
+  applied_hz: (receivedHz * applied) / received,
+  not_applied: received - applied,
   dropped: last.dropped,
-  pictures_hz: (last.pictures - first.pictures) / ((last.at - first.at) / 1000),
+  age_ms: 1000 * ages[Math.floor(ages.length / 2)],
+  pictures_hz: (last.pictures - first.pictures) / (last.s - first.s),
   renderer: await read(page, "renderer"),
 }));
 await page.waitForFunction(() => document.body.innerText.includes("Nothing comes on contact_state"), null, { polling: 10 });

@@ -95,6 +95,11 @@ impl Inputs {
         }
     }
 
+    /// Whether something about the surface waits to be looked at.
+    pub(crate) fn has_new_surface(&self) -> bool {
+        self.mesh.held.is_some() || self.displacement.held.is_some()
+    }
+
     /// Look at what arrived from the model about the surface.
     pub(crate) fn look_at_surface(&mut self) {
         if let Some((_, mesh)) = self.mesh.take() {

@@ -7,6 +7,7 @@ mod feed;
 mod health;
 mod link;
 mod origin;
+mod pace;
 mod page;
 mod parameters;
 mod pointer;
@@ -24,6 +25,7 @@ use crate::inputs::Inputs;
 use feed::Feed;
 use health::Health;
 use link::{Counts, NodeEnd, Page, Request};
+use pace::Pace;
 use parameters::NodeParameters;
 use pointer::{Pointers, Target};
 use protocol::{Asked, Hello};
@@ -43,8 +45,10 @@ struct Running {
     link: NodeEnd,
     scene: Scene,
     hello: Hello,
+    /// Between two looks for something new.
     period: Duration,
     due: Instant,
+    pace: Pace,
     health_due: Instant,
     /// Made for the first page.
     session: Option<Session>,
@@ -94,6 +98,7 @@ impl Viewer {
             scene: scene.clone(),
             period: period(scene),
             due: now,
+            pace: Pace::default(),
             health_due: now,
             session: None,
             is_shown: false,
@@ -244,6 +249,10 @@ impl Running {
         }
         // A turn that came late does not make the next ones hurry.
         self.due = (self.due + self.period).max(now);
+        let lacks_it = self.session.as_ref().is_some_and(|session| session.feed.lacks_surface_of(inputs));
+        if !self.pace.look(lacks_it || inputs.has_new_surface()) {
+            return Ok(());
+        }
         self.is_shown = true;
         inputs.look_at_surface();
         inputs.look_at_devices();
@@ -334,7 +343,7 @@ fn of_scene(scene: &Scene, hello: &Hello) -> Hello {
     }
 }
 
-/// Time between two updates. The schema has checked the rate.
+/// Time between two looks for something new. The schema has checked the rate.
 fn period(scene: &Scene) -> Duration {
-    Duration::try_from_secs_f64(1.0 / scene.viewer.rate_hz).unwrap_or(Duration::from_secs(1))
+    Duration::try_from_secs_f64(1.0 / scene.viewer.rate_hz).unwrap_or(Duration::from_secs(1)) / Pace::LOOKS
 }

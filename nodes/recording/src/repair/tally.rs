@@ -36,8 +36,14 @@ impl<'a> Tally<'a> {
             Counts { recorded: found.message_count.max(announced), saved: 0, checksum: 0 }
         });
         let announced = metadata.is_some_and(|metadata| metadata.message_count > 0);
-        let mut tally =
-            Self { recording, topics: counts.collect(), saved: 0, announced, unreadable: false, altered: false };
+        let mut tally = Self {
+            recording,
+            topics: counts.collect(),
+            saved: 0,
+            announced,
+            unreadable: false,
+            altered: false,
+        };
         recording.damage().iter().for_each(|damage| tally.damage(damage));
         tally
     }

@@ -76,6 +76,11 @@ impl Feed {
         (self.topology_version, self.surface_revision, self.told) = (None, None, None);
     }
 
+    /// Whether markers have looked at a surface that pages were not shown.
+    pub(crate) fn lacks_surface_of(&self, inputs: &Inputs) -> bool {
+        inputs.surface().is_some_and(|(_, revision)| self.surface_revision != Some(revision))
+    }
+
     /// A frame that a device speaks in and that nothing connects to the body.
     pub(crate) fn unplaced(&self, view: &DeviceView, now: Instant) -> Option<String> {
         let heard = [
