@@ -93,8 +93,18 @@ export async function pixels(browser, png) {
 /** What the page knows, copied out of it. */
 export const read = (page, expression) => page.evaluate(`JSON.parse(JSON.stringify(window.rhombus.${expression} ?? null))`);
 
-/** Waits until a function of the page's `rhombus` says yes. */
-export const until = (page, condition, argument) => page.waitForFunction(condition, argument, { polling: 50 });
+/** Waits until a function of the page's `rhombus` says yes; otherwise the error says what the page knew. */
+export async function until(page, condition, argument) {
+  try {
+    await page.waitForFunction(condition, argument, { polling: 50 });
+  } catch (error) {
+    const known = await page.evaluate(() => {
+      const { connection, counters, devices, pointer, status } = window.rhombus;
+      return JSON.stringify({ connection, counters, devices, pointer, told: status?.devices });
+    });
+    throw new Error(`${error.message}\n${condition}\nThe page knew ${known}`);
+  }
+}
 
 /** A place on the screen where the body is seen, near the middle of the picture. */
 export async function placeOnBody(page) {

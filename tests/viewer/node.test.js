@@ -19,6 +19,15 @@ async function pointerDevice(page) {
   return page.evaluate(() => window.rhombus.status.devices.find((device) => device.pointer)?.name ?? null);
 }
 
+/** In the page: whether the probe has been at the same depth for half a second. */
+function restsAt(name) {
+  const { depthM } = window.rhombus.devices[name];
+  const { depthM: before, sinceMs } = (window.rest ??= { depthM, sinceMs: performance.now() });
+  if (depthM > 0.001 && Math.abs(depthM - before) < 5e-5) return performance.now() - sinceMs > 500;
+  window.rest = { depthM, sinceMs: performance.now() };
+  return false;
+}
+
 test("a parameter is changed live, the picture follows, and what is not accepted is refused with a reason", async (t) => {
   const { page, close } = await open(browser);
   await until(page, () => window.rhombus.parameters.length > 0);
@@ -58,9 +67,11 @@ test("a press moves vertices near the cursor by what the model says, and shows i
     const state = window.rhombus.devices[name];
     return state?.mode === "contact" && state.depthM > 0.001 && window.rhombus.moved.length > 0;
   }, device);
-  await page.waitForTimeout(1500);
-  const state = (await read(page, "devices"))[device];
-  const moved = await read(page, "moved");
+  await until(page, restsAt, device);
+  const { state, moved } = await page.evaluate((name) => {
+    const { devices, moved } = window.rhombus;
+    return { state: devices[name], moved };
+  }, device);
   await keep(page, "pressed");
   note("pressed", { moved, state });
   // The vertex that moved most is at the contact, and moved by at most the depth.

@@ -64,6 +64,7 @@ export class App {
   ) {
     this.hand = new Hand(stage.orbit, {
       send: (message) => this.connection.send(message),
+      aim: (aim) => this.connection.aim(aim),
       tree: () => this.rayTree(),
       probeRadiusM: () => this.number("probe.radius") ?? this.hello?.probe_radius_m ?? 0.005,
       device: (name) => this.state?.devices[this.hello?.devices.indexOf(name) ?? -1] ?? null,

@@ -1,6 +1,6 @@
 // The connection to the node: comes back by itself, with longer and longer pauses, and says what it is doing.
 
-import { Link } from "./link.ts";
+import { type Aim, Link } from "./link.ts";
 
 /** Pauses between attempts, ms. */
 const PAUSES_MS = [250, 500, 1000, 2000, 4000, 5000];
@@ -85,6 +85,11 @@ export class Connection {
     if (!this.opened) return false;
     this.link.send(JSON.stringify(message));
     return true;
+  }
+
+  /** Where the hand is wanted until the next call, or until nobody is connected. */
+  aim(aim: Aim | null): void {
+    if (this.opened) this.link.aim(aim);
   }
 
   onPong(sentMs: number): void {

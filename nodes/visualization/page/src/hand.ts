@@ -1,10 +1,11 @@
 // The hand at the mouse: what the user does on the picture becomes targets for a device whose backend is `pointer`.
 //
 // One page at a time holds a device's pointer; it is asked for with the first press. Targets are repeated while they hold
-// (the node lets the hand go when they stop), and stop when the cursor leaves the picture.
+// (by the socket's thread: the node lets the hand go when they stop), and stop when the cursor leaves the picture.
 
 import type { OrbitCamera } from "./camera.ts";
 import type { DeviceState } from "./frames.ts";
+import type { Aim } from "./link.ts";
 import type { PointerAnswer } from "./messages.ts";
 import type { Hit, RayTree } from "./raycast.ts";
 import { allowedDepth, DEPTHS_M, GRASP_DEPTH_M, hoverTarget, pressTarget, pullTarget } from "./target.ts";
@@ -15,8 +16,8 @@ export type Tool = "look" | "press" | "pull";
 /** Who holds the pointer of the device. */
 export type Hold = "free" | "asked" | "ours" | "refused";
 
-/** A target that still holds is said again after this time, ms. */
-const REPEAT_MS = 33;
+/** What holds, and that the page is alive, is looked after this often, ms. */
+const LOOK_AFTER_MS = 33;
 /** Targets are sent no more often than this, ms. */
 const LEAST_PERIOD_MS = 8;
 /** A grasp begins when the probe touches this deep, m, or at last after this time, ms. */
@@ -29,6 +30,8 @@ const IDLE_MS = 5000;
 /** What the hand needs from the page. */
 export interface Surroundings {
   send(message: object): boolean;
+  /** Where the hand is wanted until the next call; null: nowhere. */
+  aim(aim: Aim | null): void;
   tree(): RayTree | null;
   probeRadiusM(): number;
   device(name: string): DeviceState | null;
@@ -50,14 +53,13 @@ export class Hand {
   /** The newest target that was sent, m, body frame. */
   target: Vec3 | null = null;
   private motion: Motion = { kind: "away" };
-  private sequence = 0;
   private sentMs = 0;
 
   constructor(
     private readonly orbit: OrbitCamera,
     private readonly around: Surroundings,
   ) {
-    setInterval(() => this.repeat(), REPEAT_MS);
+    setInterval(() => this.lookAfter(), LOOK_AFTER_MS);
     document.addEventListener("visibilitychange", () => {
       if (document.hidden) this.release();
     });
@@ -112,7 +114,7 @@ export class Hand {
     if (this.hold !== "ours" || this.active) return;
     const hit = this.pick(x, y);
     if (!hit) {
-      this.motion = { kind: "away" };
+      this.stop();
       return;
     }
     this.motion = { kind: "hover" };
@@ -131,8 +133,7 @@ export class Hand {
 
   /** The cursor left the picture: targets stop. */
   leave(): void {
-    if (this.active) return;
-    this.motion = { kind: "away" };
+    if (!this.active) this.stop();
   }
 
   /** Pulled in or out, m towards the viewer. */
@@ -152,7 +153,7 @@ export class Hand {
 
   /** Give the pointer back. */
   release(): void {
-    this.motion = { kind: "away" };
+    this.stop();
     if (this.device !== null && (this.hold === "ours" || this.hold === "asked")) {
       this.around.send({ type: "pointer_release", device: this.device });
     }
@@ -167,7 +168,7 @@ export class Hand {
     if (answer.granted) this.hold = this.hold === "free" ? "free" : "ours";
     else if (this.hold !== "free") {
       this.hold = "refused";
-      this.motion = { kind: "away" };
+      this.stop();
       this.target = null;
     }
     this.around.changed();
@@ -175,7 +176,7 @@ export class Hand {
 
   /** Nobody holds anything across a connection. */
   onLost(): void {
-    this.motion = { kind: "away" };
+    this.stop();
     this.hold = "free";
     this.target = null;
     this.around.changed();
@@ -193,13 +194,17 @@ export class Hand {
   private say(target: Vec3): void {
     this.target = target;
     if (this.device === null || (this.hold !== "ours" && this.hold !== "asked")) return;
-    this.sequence += 1;
     this.sentMs = performance.now();
     const grasp = this.motion.kind === "pull" && this.motion.held;
-    this.around.send({ type: "pointer_target", device: this.device, sequence: this.sequence, position: target, grasp });
+    this.around.aim({ device: this.device, position: target, grasp });
   }
 
-  private repeat(): void {
+  private stop(): void {
+    this.motion = { kind: "away" };
+    this.around.aim(null);
+  }
+
+  private lookAfter(): void {
     const { motion } = this;
     if (motion.kind === "away" || !this.target) {
       if (this.hold === "ours" && performance.now() - this.sentMs > IDLE_MS) this.release();
@@ -210,7 +215,7 @@ export class Hand {
       const touches = state?.contactHeard === true && state.mode !== "none" && state.depthM > TOUCH_M;
       motion.held = touches || performance.now() - motion.sinceMs > GRASP_AFTER_MS;
     }
-    if (performance.now() - this.sentMs >= REPEAT_MS - 4) this.say(this.target);
+    this.say(this.target);
   }
 
   private due(): boolean {

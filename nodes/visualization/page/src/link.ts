@@ -1,9 +1,20 @@
 // The page's end of the socket's thread.
 
+import type { Vec3 } from "./vector.ts";
+
+/** Where the hand of a pointer device is wanted, m, body frame. */
+export interface Aim {
+  readonly device: string;
+  readonly position: Vec3;
+  readonly grasp: boolean;
+}
+
 export type ToLink =
   | { readonly type: "open"; readonly url: string; readonly id: number }
   | { readonly type: "close" }
   | { readonly type: "send"; readonly text: string }
+  /** Said now and again until the next one; null: no more. */
+  | { readonly type: "aim"; readonly aim: Aim | null }
   /** A frame was dealt with. */
   | { readonly type: "taken"; readonly bytes: number };
 
@@ -41,6 +52,10 @@ export class Link {
 
   send(text: string): void {
     this.post({ type: "send", text });
+  }
+
+  aim(aim: Aim | null): void {
+    this.post({ type: "aim", aim });
   }
 
   private onMessage(message: FromLink): void {

@@ -3,19 +3,30 @@
 //
 // Frames are handed to the page without a copy. When the page is behind by more than it should be, the newest frame of
 // each kind waits here and replaces the one before: memory stays bounded, and the page sees the gap in the numbers.
+//
+// The other way, where the mouse wants a hand is repeated here: the node lets the hand go when that stops, which a picture
+// that takes long to draw is no reason for, and a page that hangs is.
 
-import type { FromLink, ToLink } from "./link.ts";
+import type { Aim, FromLink, ToLink } from "./link.ts";
 
 /** Frames and bytes that the page may be behind. */
 const MOST_FRAMES = 90;
 const MOST_BYTES = 24 * 1024 * 1024;
 /** Nothing more is sent while so much waits to be sent. */
 const MOST_WAITING_BYTES = 65536;
+/** An aim that still holds is said again after this time, ms. */
+const REPEAT_MS = 33;
+/** A page that has not said its aim for this long hangs, ms. Without a graphics card a first picture of something takes a second. */
+const MOST_SILENT_MS = 3000;
 
 let socket: WebSocket | null = null;
 let frames = 0;
 let bytes = 0;
 const waiting = new Map<number, ArrayBuffer>();
+let aim: Aim | null = null;
+let sequence = 0;
+let heardMs = 0;
+let saidMs = 0;
 
 const post = (message: FromLink, transfer: Transferable[] = []): void => {
   (self as unknown as { postMessage(message: FromLink, transfer: Transferable[]): void }).postMessage(message, transfer);
@@ -30,7 +41,12 @@ self.onmessage = ({ data }: MessageEvent<ToLink>) => {
       socket?.close();
       break;
     case "send":
-      if (socket?.readyState === WebSocket.OPEN && socket.bufferedAmount < MOST_WAITING_BYTES) socket.send(data.text);
+      send(data.text);
+      break;
+    case "aim":
+      aim = data.aim;
+      heardMs = performance.now();
+      sayAim();
       break;
     case "taken":
       frames -= 1;
@@ -40,9 +56,26 @@ self.onmessage = ({ data }: MessageEvent<ToLink>) => {
   }
 };
 
+setInterval(() => {
+  const nowMs = performance.now();
+  if (nowMs - heardMs < MOST_SILENT_MS && nowMs - saidMs >= REPEAT_MS - 4) sayAim();
+}, REPEAT_MS);
+
+function send(text: string): void {
+  if (socket?.readyState === WebSocket.OPEN && socket.bufferedAmount < MOST_WAITING_BYTES) socket.send(text);
+}
+
+function sayAim(): void {
+  if (!aim) return;
+  sequence += 1;
+  saidMs = performance.now();
+  send(JSON.stringify({ type: "pointer_target", ...aim, sequence }));
+}
+
 function open(url: string, id: number): void {
   socket?.close();
   waiting.clear();
+  aim = null;
   const opened = new WebSocket(url);
   opened.binaryType = "arraybuffer";
   socket = opened;
