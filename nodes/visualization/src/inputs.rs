@@ -96,6 +96,7 @@ impl Inputs {
     }
 
     /// Whether something about the surface waits to be looked at.
+    #[cfg(feature = "viewer")]
     pub(crate) fn has_new_surface(&self) -> bool {
         self.mesh.held.is_some() || self.displacement.held.is_some()
     }

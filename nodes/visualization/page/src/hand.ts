@@ -42,7 +42,7 @@ type Motion =
   | { readonly kind: "away" }
   | { readonly kind: "hover" }
   | { readonly kind: "press"; hit: Hit }
-  | { readonly kind: "pull"; readonly hit: Hit; readonly start: Vec3; readonly sinceMs: number; held: boolean; nearerM: number };
+  | { readonly kind: "pull"; readonly hit: Hit; readonly start: Vec3; readonly sinceMs: number; held: boolean; grasped: boolean; nearerM: number };
 
 export class Hand {
   /** Name of the device; null: there is none. */
@@ -85,7 +85,7 @@ export class Hand {
     this.take();
     if (pull) {
       const start = pressTarget(hit, this.around.probeRadiusM(), GRASP_DEPTH_M);
-      this.motion = { kind: "pull", hit, start, sinceMs: performance.now(), held: false, nearerM: 0 };
+      this.motion = { kind: "pull", hit, start, sinceMs: performance.now(), held: false, grasped: false, nearerM: 0 };
       this.say(start);
     } else {
       this.motion = { kind: "press", hit };
@@ -210,10 +210,14 @@ export class Hand {
       if (this.hold === "ours" && performance.now() - this.sentMs > IDLE_MS) this.release();
       return;
     }
-    if (motion.kind === "pull" && !motion.held) {
+    if (motion.kind === "pull") {
       const state = this.device === null ? null : this.around.device(this.device);
-      const touches = state?.contactHeard === true && state.mode !== "none" && state.depthM > TOUCH_M;
-      motion.held = touches || performance.now() - motion.sinceMs > GRASP_AFTER_MS;
+      const { mode, depthM } = state?.contactHeard ? state : { mode: null, depthM: 0 };
+      const touches = mode !== null && mode !== "none" && depthM > TOUCH_M;
+      motion.held ||= touches || performance.now() - motion.sinceMs > GRASP_AFTER_MS;
+      motion.grasped ||= mode === "grasp";
+      // It slipped, or somebody let go of it: there is nothing to pull any more.
+      if (motion.grasped && mode !== null && mode !== "grasp") this.end();
     }
     this.say(this.target);
   }

@@ -129,8 +129,9 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Something changed: draw at the next frame of the screen. */
+  /** Something changed: draw at the next frame of the screen. Without a body there is nothing to draw, and no time to lose. */
   invalidate(): void {
+    if (!this.organ) return;
     clearTimeout(this.stillTimer);
     if (this.requested !== 0 || this.pauseTimer !== undefined) return;
     const request = (): void => {
@@ -159,7 +160,7 @@ export class Stage {
 
   drawNow(): void {
     cancelAnimationFrame(this.requested);
-    this.render();
+    if (this.organ) this.render();
     this.requested = 0;
   }
 
