@@ -50,6 +50,7 @@ pub(crate) enum Place {
         records: Range<u64>,
     },
     /// Rows of a database; its file knows which from the number.
+    #[cfg(feature = "sqlite")]
     Sqlite {
         /// Counts the blocks of the file.
         part: usize,

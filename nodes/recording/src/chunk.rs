@@ -114,6 +114,7 @@ pub(crate) fn load(
             let stored = bytes.len() as u64;
             (Inside { bytes, fault: None }, records.start, stored, false)
         }
+        #[cfg(feature = "sqlite")]
         Place::Sqlite { .. } => return Ok(Loaded::default()),
     };
     let standing = |channel: u16| match &block.channels {
