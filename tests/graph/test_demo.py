@@ -150,8 +150,11 @@ def test_a_scene_whose_sections_are_of_another_namespace_is_the_drivers_sentence
     result = run("--scene", scene, "--namespace", "or1", "--record", name)
     assert result.returncode == 1
     said = [line for line in result.stderr.splitlines() if line.startswith("demo: ")]
-    assert said and all(line.split(": ")[1] in ("left", "right") for line in said), result.stderr
-    assert "section /left/haptic_device would be ignored by /or1/left/haptic_device" in result.stderr
+    # Of two drivers that refuse at the same time the demo may hear one only.
+    sides = [line.split(": ")[1] for line in said]
+    assert sides and set(sides) <= {"left", "right"}, result.stderr
+    for side in sides:
+        assert f"section /{side}/haptic_device would be ignored by /or1/{side}/haptic_device" in result.stderr
 
 
 def test_two_hands_are_in_the_summary_and_in_the_recording(name):
