@@ -44,6 +44,8 @@ def test_a_page_is_greeted_then_shown_mesh_surface_and_state_as_the_topics_say(s
     heard.displacement[0] = 0.1234567
     heard.header.stamp.sec, heard.header.stamp.nanosec = 12, 500_000_000
     session.publish("surface_displacement", heard)
+    first = session.page()
+    session.wait_for(lambda: first.shown[SURFACE], "the node has heard of the surface", lambda: press(session))
     page = session.page()
     session.wait_for(lambda: page.shown[SURFACE] and len(page.surface()[2]) == 3, "the surface", lambda: press(session))
     assert page.order[0] == "hello"

@@ -16,6 +16,8 @@ use std::process::ExitCode;
 use settings::Settings;
 
 fn main() -> ExitCode {
+    // A recorder that is stopped must cost nobody anything.
+    node_kit::transport::without_shared_memory("bag_replay");
     node_kit::run(node_kit::Node::BagReplay, |kit| match settings::read(kit)? {
         Settings::Record(settings) => record::run(kit, &settings),
         Settings::Play(settings) => play::run(kit, &settings),

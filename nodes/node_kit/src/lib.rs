@@ -21,6 +21,7 @@ pub mod services;
 mod shutdown;
 mod tf;
 pub mod topics;
+pub mod transport;
 mod wire;
 
 pub use diagnostics::{Level, Status};

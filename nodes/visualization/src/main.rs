@@ -4,7 +4,7 @@
 //! ROS: what is known ([`surface`], [`device_view`]), how it looks ([`drawing`], [`rhombi`], [`colour`]), what the
 //! readers do not have yet ([`picture`], [`outbox`]). Around it stand the topics in ([`inputs`]), the messages out
 //! ([`messages`], [`transforms`]), the pages for browsers ([`viewer`]) and the loop ([`node`]). Before all that, the way
-//! by which it hears ([`transport`]).
+//! by which it hears ([`node_kit::transport`]).
 
 mod colour;
 mod device_view;
@@ -18,11 +18,10 @@ mod picture;
 mod rhombi;
 mod surface;
 mod transforms;
-mod transport;
 #[cfg_attr(not(feature = "viewer"), path = "viewer/absent.rs")]
 mod viewer;
 
 fn main() -> std::process::ExitCode {
-    transport::without_shared_memory();
+    node_kit::transport::without_shared_memory("visualization");
     node_kit::run(node_kit::Node::Visualization, node::run)
 }

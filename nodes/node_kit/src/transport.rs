@@ -1,4 +1,4 @@
-//! By which way the viewer hears: by network sockets, not by shared memory.
+//! By which way those hear who only listen, a viewer or a recorder: by network sockets, not by shared memory.
 //!
 //! A reader that is stopped or dead keeps its queue in Fast DDS's shared memory, and once that is full every message to
 //! it costs its writer three times the processor time (0.13 ms, then 0.38 ms, on two cores). Of a model that answers a
@@ -16,7 +16,7 @@ const CHOSEN: [&str; 3] = [TRANSPORTS, "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDD
 
 /// Starts this program anew, in the same process, with that choice made, because it is one of the environment's; returns
 /// when it is made, or cannot be. To be called before anything else.
-pub(crate) fn without_shared_memory() {
+pub fn without_shared_memory(node: &str) {
     if CHOSEN.iter().any(|name| env::var_os(name).is_some()) {
         return;
     }
@@ -27,5 +27,5 @@ pub(crate) fn without_shared_memory() {
         command.arg0(name);
     }
     let error = command.args(arguments).env(TRANSPORTS, "UDPv4").exec();
-    eprintln!("[WARN] [visualization]: hears through shared memory, because it cannot start anew ({error})");
+    eprintln!("[WARN] [{node}]: hears through shared memory, because it cannot start anew ({error})");
 }
