@@ -46,10 +46,14 @@ fn the_grip_turns_the_handle_and_has_the_buttons() {
     let double = Double::start(&["--grips", "61548"]);
     let mut device = double.open();
     assert_eq!(device.description().buttons, ["a", "b", "c", "home"]);
-    let state = press(&mut device, DVec3::ZERO, 300);
+    let mut state = press(&mut device, DVec3::ZERO, 300);
     assert_eq!(state.buttons, 0b0101);
-    // It turns about the service's y with 0.5 rad/s: about forward, which is x.
-    assert!((state.angular_velocity_rad_per_s - DVec3::new(0.5, 0.0, 0.0)).length() < 0.05, "{state:?}");
+    // It turns about the service's y with 0.5 rad/s: about forward, which is x. Readings that a busy machine holds up for a
+    // moment come with a wrong time between them.
+    eventually("the speed of the turn", || {
+        state = press(&mut device, DVec3::ZERO, 20);
+        (state.angular_velocity_rad_per_s - DVec3::new(0.5, 0.0, 0.0)).length() < 0.05
+    });
     let (axis, angle) = state.pose.rotation.to_axis_angle();
     assert!(angle > 0.1 && (axis - DVec3::X).length() < 1e-6, "{axis} {angle}");
     let battery = device.description().status_names.iter().position(|name| *name == "grip_battery_percent");
