@@ -254,12 +254,13 @@ mod tests {
                 segment(duration_s, path(&points[..half]), 0.5), segment(0.8, path(&points[half..]), 0.1),
             ]).unwrap();
             let h = 1e-6;
-            // Peak speeds and accelerations of such curves: < 5 m/s, < 500 m/s^2.
+            // Between points at most D = 0.35 m apart the spline's derivatives by its parameter are at most 2.5 D and 12 D. Five
+            // pieces in 0.3 s at minimum jerk: speeds < 30 m/s, accelerations < 5000 m/s^2.
             let joints = [0.0, duration_s, script.period_s()];
             for t in joints.into_iter().chain([time_s]) {
                 let (before, after) = (script.at(t - h), script.at(t + h));
-                prop_assert!((after.position - before.position).length() < 2.0 * h * 5.0);
-                prop_assert!((after.velocity_m_per_s - before.velocity_m_per_s).length() < 2.0 * h * 500.0);
+                prop_assert!((after.position - before.position).length() < 2.0 * h * 30.0);
+                prop_assert!((after.velocity_m_per_s - before.velocity_m_per_s).length() < 2.0 * h * 5000.0);
                 prop_assert!((after.gripper_rad - before.gripper_rad).abs() < 2.0 * h * 5.0);
                 let difference = (after.position - before.position) / (2.0 * h);
                 prop_assert!((difference - script.at(t).velocity_m_per_s).length() < 1e-3);
