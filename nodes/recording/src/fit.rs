@@ -1,7 +1,10 @@
 //! Which bytes of an MCAP file can be a record, and where the next record is when something is broken.
 //!
 //! A head says kind and length, and either may be broken. A record whose inner lengths add up to that length is one
-//! for sure. A message has no inner lengths: it is one when a record follows it.
+//! for sure. A message has no inner lengths: it is one when a record follows it, and where the file is in doubt, when no
+//! row of messages begins inside of it.
+
+use std::ops::{Range, RangeInclusive};
 
 use mcap::records::op;
 
@@ -157,19 +160,39 @@ impl<'a> View<'a> {
 
     /// The first place from `from` on where records go on; messages count when their channel is one of `channels`.
     pub(crate) fn search(&mut self, from: u64, channels: &ChannelSet) -> Result<Option<u64>, Error> {
-        let mut offset = from;
-        while offset + HEAD <= self.file.len() {
+        self.find(op::HEADER..=op::DATA_END, from..self.file.len(), channels)
+    }
+
+    /// The first message of a row that begins in `range`, which a longer record may cover by its length.
+    pub(crate) fn row_within(
+        &mut self,
+        range: Range<u64>,
+        channels: &ChannelSet,
+    ) -> Result<Option<u64>, Error> {
+        self.find(op::MESSAGE..=op::MESSAGE, range, channels)
+    }
+
+    /// The first record of one of `kinds` that begins in `range` and from which records go on.
+    fn find(
+        &mut self,
+        kinds: RangeInclusive<u8>,
+        range: Range<u64>,
+        channels: &ChannelSet,
+    ) -> Result<Option<u64>, Error> {
+        let mut offset = range.start;
+        let until = range.end.min((self.file.len() + 1).saturating_sub(HEAD));
+        while offset < until {
             let bytes = self.search.rest(self.file, offset, HEAD, SEARCH_BYTES)?;
             let heads = bytes.windows(HEAD as usize);
             // Lengths are below 2^40.
             let candidate =
-                heads.clone().position(|head| matches!(head, [op::HEADER..=op::DATA_END, .., 0, 0, 0]));
+                heads.clone().position(|head| matches!(head, [kind, .., 0, 0, 0] if kinds.contains(kind)));
             let Some(candidate) = candidate else {
                 offset += heads.len() as u64;
                 continue;
             };
             offset += candidate as u64;
-            if self.is_row(offset, channels)? {
+            if offset < until && self.is_row(offset, channels)? {
                 return Ok(Some(offset));
             }
             offset += 1;

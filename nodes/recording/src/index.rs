@@ -147,6 +147,9 @@ impl<'a> Walk<'a> {
     /// Takes the record at `offset`, or what is broken there, and says where to go on.
     fn step(&mut self, view: &mut View<'_>, offset: u64) -> Result<u64, Error> {
         let fit = view.fit(offset)?;
+        if let Some(next) = self.covered(view, offset, fit)? {
+            return Ok(next);
+        }
         if let Fit::Sure(end) | Fit::Maybe(end) = fit
             && (fit == Fit::Sure(end) || view.goes_on(end)?)
         {
@@ -186,6 +189,26 @@ impl<'a> Walk<'a> {
             return self.take_chunk(offset, end_of_damage, cut);
         }
         Ok(end_of_damage)
+    }
+
+    /// Where the messages begin that a record at `offset` only covers because its length is broken. A whole file is not
+    /// asked: its summary counts what is there. Nor are chunks and attachments, whose inner lengths tell.
+    fn covered(&mut self, view: &mut View<'_>, offset: u64, fit: Fit) -> Result<Option<u64>, Error> {
+        let Fit::Maybe(end) = fit else { return Ok(None) };
+        let Some((kind, length)) = view.head(offset)? else { return Ok(None) };
+        if self.summary.is_some() || kind != op::MESSAGE && kind <= op::DATA_END {
+            return Ok(None);
+        }
+        let next = view.row_within(offset + HEAD..end, &self.channels)?;
+        if let Some(next) = next {
+            self.note_at(offset, || {
+                let lost = next - offset;
+                format!(
+                    "a record (kind {kind:#04x}) of {length} bytes inside of which messages begin; {lost} bytes are left out"
+                )
+            });
+        }
+        Ok(next)
     }
 
     /// Takes the record between two places.

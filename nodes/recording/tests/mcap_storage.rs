@@ -519,6 +519,32 @@ thread_local! {
     static LOOSE_FILE: Vec<u8> = file(LOOSE, 0..200, 200);
 }
 
+#[test]
+fn any_length_of_a_message_in_a_row_costs_that_message_at_most() {
+    for summary in [true, false] {
+        let whole = file(Shape { summary, ..LOOSE }, 0..200, 200);
+        let messages: Vec<_> = records(&whole)
+            .into_iter()
+            .filter(|(kind, _)| *kind == op::MESSAGE)
+            .map(|(_, place)| place)
+            .collect();
+        for hit in [0, 1, 2, 135, 198, 199] {
+            for (byte, value) in (1..9).flat_map(|byte| (0..=255).map(move |value| (byte, value))) {
+                let mut bytes = whole.clone();
+                bytes[messages[hit].start + byte] = value;
+                let (found, ..) = read(&opened(&bytes).unwrap());
+                let found: Vec<_> = found.iter().map(|message| message.sequence as usize).collect();
+                for number in (0..200).filter(|number| *number != hit) {
+                    assert!(
+                        found.contains(&number),
+                        "{number} is lost, {value} in byte {byte} of {hit}, {summary}"
+                    );
+                }
+            }
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1500, ..ProptestConfig::default() })]
 
