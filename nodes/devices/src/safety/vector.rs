@@ -26,12 +26,19 @@ pub(crate) fn limited(vector: DVec3, limit: f64) -> DVec3 {
 /// From `from` towards `to`, no further than `step` >= 0. RT safe.
 pub(crate) fn towards(from: DVec3, to: DVec3, step: f64) -> DVec3 {
     let way = to - from;
-    if way.length() <= step * INSIDE { to } else { from + limited(way, step * INSIDE) }
+    let step = room(size(from), step);
+    if way.length() <= step { to } else { from + limited(way, step) }
 }
 
 /// [`towards`] for numbers. RT safe.
 pub(crate) fn towards_number(from: f64, to: f64, step: f64) -> f64 {
-    from + (to - from).clamp(-step * INSIDE, step * INSIDE)
+    let step = room(from.abs(), step);
+    from + (to - from).clamp(-step, step)
+}
+
+/// What of `step` leaves room for the rounding of a sum with a number of this size, which a step of nanoseconds needs.
+fn room(size: f64, step: f64) -> f64 {
+    (step * INSIDE - 2.0 * f64::EPSILON * (size + step)).max(0.0)
 }
 
 /// `a + share * b`. RT safe.
@@ -70,6 +77,11 @@ mod tests {
             step in 1e-3..10.0f64, limit in 0.1..20.0f64,
         ) {
             let (from, to) = (limited(from.into(), limit), limited(to.into(), limit));
+            // A period that follows at once leaves next to nothing to step.
+            for tiny in [step * 1e-6, step * 1e-12, step * 1e-18, 0.0] {
+                prop_assert!((towards(from, to, tiny) - from).length() <= tiny);
+                prop_assert!((towards_number(from.x, to.x, tiny) - from.x).abs() <= tiny);
+            }
             let got = towards(from, to, step);
             prop_assert!((got - from).length() <= step);
             prop_assert!(got.length() <= limit);
