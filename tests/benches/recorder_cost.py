@@ -106,7 +106,8 @@ def main():
     parser.add_argument("--csv", type=Path, help="appends; the machine is named before the first row")
     options = parser.parse_args()
     os.environ.setdefault("ROS_DOMAIN_ID", str(60 + os.getpid() % 30))
-    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    # As in a session: kept to this machine, the middleware would add shared memory by itself.
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "SUBNET"
     lines = []
     if options.csv is None or not options.csv.exists():
         lines += [f"# {machine()}", "# processor time in percent of one core, by thread; messages_per_s is what a busy machine let the publisher send; complete: nothing was lost"]

@@ -114,7 +114,8 @@ def main():
     parser.add_argument("--csv", type=Path)
     options = parser.parse_args()
     os.environ.setdefault("ROS_DOMAIN_ID", str(60 + os.getpid() % 30))
-    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    # As in a session: kept to this machine, the middleware would add shared memory by itself.
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "SUBNET"
     started_on, table = machine(), Table(options.csv)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
