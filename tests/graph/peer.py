@@ -297,6 +297,7 @@ class Client:
     def engage(self, handle):
         """Command nothing until the driver lets forces begin, then a small force until its ramp is over."""
         self.stream((0.0, 0.0, 0.0), 0.3)
+        self.until((0.0, 0.0, 0.0), lambda: handle.forces, "a measured force")
         small = 0.15
         self.until((small, 0.0, 0.0), lambda: size(handle.forces[-1]) > 0.999 * small, "the end of the ramp")
 
