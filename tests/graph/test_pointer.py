@@ -132,7 +132,7 @@ def test_a_hand_that_nobody_points_to_waits_clear_of_the_body(start, peer):
 
 
 def test_pressing_at_a_place_touches_there_and_the_tissue_pushes_back(session, peer):
-    _, pointer = session()
+    driver, pointer = session()
     wish_m = 0.006
     pointer.lead(pressed(wish_m), 2.0)
     commanded, given, state = settled(pointer)
@@ -143,7 +143,10 @@ def test_pressing_at_a_place_touches_there_and_the_tissue_pushes_back(session, p
     assert commanded[2] == approx(HAND_N_PER_M * (wish_m - state.depth), rel=0.03), "hand and tissue balance"
     assert given == approx(commanded, abs=0.02 * commanded[2])
     _, summary, values = peer.new_status("/haptic_device: pointer")
-    assert int(values["targets"]) > 60 and values["rejected"] == values["untimely"] == "0"
+    assert int(values["targets"]) > 60 and values["rejected"] == "0"
+    # A machine that stands still for longer than pointer.timeout makes a target old; nothing else may be wrong with one.
+    reasons = [line.split("not followed: ")[1] for line in driver.log().splitlines() if "not followed: " in line]
+    assert all(" old" in reason for reason in reasons) and (reasons or values["untimely"] == "0"), reasons
     assert values["publisher"] == "/peer"
 
 
