@@ -393,6 +393,7 @@ def test_each_device_has_its_own_markers_and_frames(start):
 
     session.wait_for(lambda: both <= viewer.shown.keys(), "two contacts", press_both)
     # Where several devices stand is for their drivers to say.
+    session.wait_for(lambda: session.static_transforms, "a static transform")
     assert session.static_transforms.keys() == {f"{session.namespace}/body"}
     session.wait_for(lambda: ("probe", 1) not in viewer.shown, "right is silent", lambda: press(session, "left"))
     assert ("probe", 0) in viewer.shown
