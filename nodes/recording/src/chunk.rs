@@ -1,7 +1,5 @@
 //! The heads of MCAP chunks, and blocks of MCAP records loaded into memory.
 
-use std::ops::RangeInclusive;
-
 use mcap::records::op;
 
 use crate::block::{Block, Chunk, Entry, Loaded, MAX_BLOCK_BYTES, Place};
@@ -164,8 +162,9 @@ pub(crate) fn load(
         });
     }
     if fault.is_some() {
-        let times_ns = block.start_ns..=block.end_ns;
-        leave_out_wrong_times(&mut entries, &times_ns, |entry| entry.log_time_ns);
+        // The block's times are those of the chunk and of its index, or were taken from these messages: what lies outside
+        // has a broken time. Messages before would have to come when later ones have gone.
+        entries.retain(|entry| (block.start_ns..=block.end_ns).contains(&entry.log_time_ns));
     }
     let damaged = |at: usize, reason: String| match is_compressed {
         false => Error::damaged(file.path(), offset + at as u64, reason),
@@ -199,19 +198,6 @@ pub(crate) fn load(
 pub(crate) fn lost_inside(bytes: u64, is_compressed: bool) -> String {
     let what = if is_compressed { "decompressed bytes" } else { "bytes" };
     format!("broken records: {bytes} {what} are left out, the first ones here")
-}
-
-/// Of a chunk with a wrong checksum: a few messages far from its times have a broken time.
-pub(crate) fn leave_out_wrong_times<T>(
-    messages: &mut Vec<T>,
-    times_ns: &RangeInclusive<u64>,
-    time_of: impl Fn(&T) -> u64,
-) {
-    let is_inside = |message: &T| times_ns.contains(&time_of(message));
-    // Or its times are what is broken.
-    if messages.iter().filter(|message| is_inside(message)).count() * 2 > messages.len() {
-        messages.retain(is_inside);
-    }
 }
 
 /// What is known of a channel.

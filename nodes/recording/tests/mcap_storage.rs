@@ -98,6 +98,25 @@ fn any_bit_of_a_message_in_a_plain_chunk_costs_that_message_at_most() {
 }
 
 #[test]
+fn broken_times_of_half_of_a_chunks_messages_do_not_break_the_order() {
+    let mut bytes = file(PLAIN, 0..6, 2);
+    let places = chunks(&bytes);
+    // The second message of the first chunk says that it is the last of all, that of the second that it is the first.
+    for (number, chunk, time_ns) in [(1, 0, log_time_ns(9_000)), (3, 1, 1)] {
+        let written = log_time_ns(number).to_le_bytes();
+        let inside = &mut bytes[places[chunk].clone()];
+        let after_head = inside.windows(8).rposition(|window| window == written).unwrap() - 8;
+        inside[after_head..after_head + 8].copy_from_slice(&u64::to_le_bytes(time_ns));
+    }
+    let recording = opened(&bytes).unwrap();
+    let (messages, errors) = read(&recording);
+    assert!(messages.is_sorted_by_key(|message| message.log_time_ns));
+    assert_eq!(numbers(&messages), [0, 2, 4, 5]);
+    let told = errors.iter().filter(|error| error.to_string().contains("checksum")).count();
+    assert_eq!(told, 2, "{errors:?}");
+}
+
+#[test]
 fn a_hole_of_zeros_in_a_plain_chunk_costs_the_messages_it_is_in() {
     for (shape, told) in [(PLAIN, "checksum"), (Shape { checksums: false, ..PLAIN }, "broken records")] {
         let mut bytes = file(shape, 0..1000, 500);
