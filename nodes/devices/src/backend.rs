@@ -2,7 +2,7 @@
 
 use crate::{Device, DeviceError};
 
-/// A backend with what it needs to open its device. Opening again opens the same device.
+/// A backend with what it needs to open its device.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Backend {
@@ -45,6 +45,33 @@ impl Backend {
             Backend::SpaceMouse(settings) => Ok(Box::new(crate::spacemouse::open(settings)?)),
             #[cfg(feature = "pointer")]
             Backend::Pointer(settings) => Ok(Box::new(crate::pointer::PointerDevice::open(settings)?)),
+        }
+    }
+
+    /// The same, for the device with this serial number. Without one, or where a backend has but one device, as it is.
+    #[must_use]
+    pub fn for_serial(self, serial: &str) -> Backend {
+        match self {
+            _ if serial.is_empty() => self,
+            #[cfg(feature = "force_dimension")]
+            Backend::ForceDimension(settings) => Backend::ForceDimension(crate::force_dimension::Settings {
+                serial: serial.to_owned(),
+                ..settings
+            }),
+            #[cfg(feature = "haply")]
+            Backend::Haply(settings) => {
+                Backend::Haply(crate::haply::Settings { serial: serial.to_owned(), ..settings })
+            }
+            #[cfg(feature = "serial")]
+            Backend::Serial(settings) => {
+                Backend::Serial(crate::serial::Settings { serial: serial.to_owned(), ..settings })
+            }
+            #[cfg(feature = "spacemouse")]
+            Backend::SpaceMouse(settings) => {
+                Backend::SpaceMouse(crate::spacemouse::Settings { serial: serial.to_owned(), ..settings })
+            }
+            #[cfg(any(feature = "simulated", feature = "pointer"))]
+            other => other,
         }
     }
 

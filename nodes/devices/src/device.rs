@@ -246,6 +246,21 @@ impl Workspace {
     }
 }
 
+/// What a backend finds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Listed {
+    /// The devices.
+    pub found: Vec<Found>,
+    /// Why more may be there than were found.
+    pub problems: Vec<DeviceError>,
+}
+
+impl From<Vec<Found>> for Listed {
+    fn from(found: Vec<Found>) -> Listed {
+        Listed { found, problems: Vec::new() }
+    }
+}
+
 /// A device that is connected, opened or not.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found {

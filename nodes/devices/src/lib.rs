@@ -62,8 +62,8 @@ mod tick;
 
 pub use backend::Backend;
 pub use device::{
-    Description, Device, DeviceLimits, DeviceState, Found, MAX_JOINTS, MAX_STATUS, MotorsOff, Workspace,
-    Wrench,
+    Description, Device, DeviceLimits, DeviceState, Found, Listed, MAX_JOINTS, MAX_STATUS, MotorsOff,
+    Workspace, Wrench,
 };
 pub use emergency::{is_motor_loop, motors_off_at_once};
 pub use error::DeviceError;

@@ -196,6 +196,11 @@ impl MotorLoop {
         self.shared.counters.counts()
     }
 
+    /// Why the last attempt to open a lost device again failed, if there was one since the last call.
+    pub fn take_not_reopened(&self) -> Option<String> {
+        self.shared.not_reopened.pop()
+    }
+
     /// False when the loop has ended: after a panic, or [`motors_off_at_once`](crate::motors_off_at_once).
     pub fn is_running(&self) -> bool {
         self.thread.as_ref().is_some_and(|thread| !thread.is_finished())

@@ -61,11 +61,17 @@ impl MotorThread {
     }
 
     /// The device again, if it is there and the same one. Not RT safe; nothing is being pushed.
-    fn reopen(&mut self) -> Option<Box<dyn Device>> {
-        let device = (self.open)().ok()?;
+    fn reopen(&mut self) -> Result<Box<dyn Device>, String> {
+        let device = (self.open)().map_err(|error| error.to_string())?;
         let description = device.description();
-        let is_same = description.serial == self.serial && check_limits(description).is_ok();
-        is_same.then_some(device)
+        if description.serial != self.serial {
+            return Err(format!(
+                "there is a {} with serial number {:?}, but this was {:?}; connect that one, or start anew",
+                description.model, description.serial, self.serial
+            ));
+        }
+        check_limits(description).map_err(|error| error.to_string())?;
+        Ok(device)
     }
 }
 
@@ -109,11 +115,15 @@ fn wait_for_device(motor: &mut MotorThread, running: &Running) -> Option<Box<dyn
         let now_ns = monotonic_ns();
         if now_ns >= next_attempt_ns {
             next_attempt_ns = now_ns + REOPEN_PERIOD_NS;
-            motor.device = motor.reopen();
-            if motor.device.is_some() {
-                Counters::add(&motor.shared.counters.reopenings, 1);
-                motor.operation.find_device();
-                continue;
+            match motor.reopen() {
+                Ok(device) => {
+                    motor.device = Some(device);
+                    Counters::add(&motor.shared.counters.reopenings, 1);
+                    motor.operation.find_device();
+                    continue;
+                }
+                // Whoever has not yet heard of the attempt before needs the newest one only.
+                Err(why) => drop(motor.shared.not_reopened.force_push(why)),
             }
         }
         sleep_until(monotonic_ns() + IDLE_NS);

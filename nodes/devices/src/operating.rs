@@ -92,6 +92,15 @@ impl StateCommand {
     }
 }
 
+/// As much of a word as a line of a log takes.
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
 impl FromStr for StateCommand {
     type Err = String;
 
@@ -99,7 +108,7 @@ impl FromStr for StateCommand {
         let all = StateCommand::ALL;
         all.into_iter().find(|command| command.word() == text).ok_or_else(|| {
             let words = all.map(StateCommand::word).join(", ");
-            format!("state command \"{text}\": accepted are {words}")
+            format!("state command {:?}: accepted are {words}", shortened(text))
         })
     }
 }

@@ -12,8 +12,10 @@ use crate::{
     StateCommand,
 };
 
-/// Periods in a row with readings that are not finite before that is a fault.
+/// Periods in a row with readings that are not finite before that is a fault; more, with good ones in between.
 const UNUSABLE_READINGS: u32 = 10;
+/// Good readings that make up for one that is not finite. With less between them, they add up to a fault.
+const GOOD_FOR_UNUSABLE: u32 = 10;
 /// Time that a device gets after enabling before motors that are off are a fault, ns.
 const MOTORS_ON_TIME_NS: u64 = 200_000_000;
 
@@ -236,7 +238,7 @@ impl Operation {
 
     /// Looks at what a reading says about the device, and whether the owner lives.
     pub(crate) fn watch(&mut self, state: &DeviceState, now_ns: u64) {
-        self.unusable = 0;
+        self.unusable = self.unusable.saturating_sub(1);
         self.is_homed = state.homed;
         let settled = now_ns.saturating_sub(self.enabled_ns) >= MOTORS_ON_TIME_NS;
         if let Some(reason) = state.motors_off
@@ -248,10 +250,10 @@ impl Operation {
         self.watch_owner(now_ns);
     }
 
-    /// A reading that is not finite: one may be a glitch, several in a row are a fault.
+    /// A reading that is not finite: one may be a glitch, many are a fault.
     pub(crate) fn watch_unusable(&mut self, now_ns: u64) {
-        self.unusable += 1;
-        if self.unusable >= UNUSABLE_READINGS && self.operating.has_motors_on() {
+        self.unusable = (self.unusable + GOOD_FOR_UNUSABLE).min(UNUSABLE_READINGS * GOOD_FOR_UNUSABLE);
+        if self.unusable >= UNUSABLE_READINGS * GOOD_FOR_UNUSABLE && self.operating.has_motors_on() {
             self.raise(FaultCause::NotFinite);
         }
         self.watch_owner(now_ns);
@@ -306,6 +308,7 @@ impl Operation {
         self.shared.set_status(MotorStatus {
             operating: self.operating,
             fault: self.faults.cause(),
+            barred_by: self.present(),
             is_homed: self.is_homed,
             is_busy: self.is_busy,
         });

@@ -19,7 +19,7 @@ pub use port::Port;
 
 use std::time::Duration;
 
-use crate::{DeviceError, Found};
+use crate::{DeviceError, Listed};
 
 const BACKEND: &str = "serial";
 
@@ -47,13 +47,13 @@ pub fn open(settings: Settings) -> Result<SerialDevice, DeviceError> {
 /// The devices that answer. Says hello at every port that [`Settings::port`] means, whatever the serial number.
 ///
 /// # Errors
-/// A setting out of range; a port that is missing, in use or forbidden when nothing else was found.
-pub fn list(settings: &Settings) -> Result<Vec<Found>, DeviceError> {
+/// A setting out of range, or a port that is not there.
+pub fn list(settings: &Settings) -> Result<Listed, DeviceError> {
     check(settings)?;
     match find::try_all(settings) {
-        Ok(tried) => find::found(tried),
+        Ok(tried) => Ok(find::listed(tried)),
         // No port at all, and none asked for.
-        Err(DeviceError::NotFound { .. }) if settings.port.is_empty() => Ok(Vec::new()),
+        Err(DeviceError::NotFound { .. }) if settings.port.is_empty() => Ok(Listed::default()),
         Err(error) => Err(error),
     }
 }

@@ -4,6 +4,7 @@ use std::sync::atomic::Ordering::{AcqRel, Acquire, Relaxed, Release};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 use crossbeam::atomic::AtomicCell;
+use crossbeam::queue::ArrayQueue;
 
 use crate::OperatingState;
 use crate::safety::FaultCause;
@@ -16,6 +17,8 @@ pub struct MotorStatus {
     pub operating: OperatingState,
     /// Why it is [`OperatingState::Fault`].
     pub fault: Option<FaultCause>,
+    /// What is wrong now and keeps the motors from being enabled, whether a fault tells of it or not.
+    pub barred_by: Option<FaultCause>,
     /// Whether the device's position is referenced.
     pub is_homed: bool,
     /// Whether the device is being homed, or waits for it. Not while a lost device is looked for: that is the fault
@@ -31,6 +34,8 @@ pub(crate) struct Shared {
     /// Pressed since the loop last looked, even if released again.
     was_pressed: AtomicBool,
     pub(crate) counters: Counters,
+    /// Why a lost device could not be opened again; the newest attempt.
+    pub(crate) not_reopened: ArrayQueue<String>,
     status: AtomicCell<MotorStatus>,
     max_force_n: AtomicU64,
     beat_ns: AtomicU64,
@@ -44,6 +49,7 @@ impl Shared {
             is_pressed: AtomicBool::new(false),
             was_pressed: AtomicBool::new(false),
             counters: Counters::default(),
+            not_reopened: ArrayQueue::new(1),
             status: AtomicCell::default(),
             max_force_n: AtomicU64::new(max_force_n.to_bits()),
             beat_ns: AtomicU64::new(now_ns),

@@ -49,7 +49,12 @@ fn law(ms: u64) -> LawCommand {
 }
 
 fn servo(ms: u64, force_n: DVec3) -> ServoCommand {
-    ServoCommand { since_ns: ms * MS, wrench: Wrench::of_force(force_n), axes: Axes::Base }
+    ServoCommand {
+        since_ns: ms * MS,
+        gripper_until_ns: u64::MAX,
+        wrench: Wrench::of_force(force_n),
+        axes: Axes::Base,
+    }
 }
 
 /// A source with the newest of every slot, as the motor loop has them.
@@ -97,6 +102,18 @@ fn law_force_n() -> DVec3 {
     DVec3::Z * chains().at_depth(0.002).unwrap().force_n
 }
 
+#[test]
+fn a_gripper_force_ends_at_its_own_time_however_long_the_wrench_goes_on() {
+    let mut bench = Bench::new(ForceSource::ServoForce);
+    let wrench = Wrench { gripper_force_n: 2.0, ..Wrench::of_force(DVec3::X) };
+    for ms in 100..=140 {
+        bench.servo = Some(ServoCommand { wrench, gripper_until_ns: 120 * MS, ..servo(ms, DVec3::X) });
+        let wanted = bench.at(ms).wrench;
+        assert_eq!(wanted.gripper_force_n > 0.0, ms <= 120, "{ms} ms");
+        assert!(wanted.force_n.x > 0.0, "{ms} ms");
+    }
+}
+
 // Who is followed.
 
 #[test]
@@ -142,7 +159,8 @@ fn a_commanded_wrench_in_the_handles_axes_turns_with_the_handle() {
     let mut bench = Bench::new(ForceSource::ServoForce);
     let wrench = Wrench { torque_n_m: DVec3::Y * 0.1, gripper_force_n: 2.0, ..Wrench::of_force(DVec3::X) };
     for (ms, angle) in [(0, 0.0), (20, 0.5), (40, 1.5)] {
-        bench.servo = Some(ServoCommand { since_ns: ms * MS, wrench, axes: Axes::Tip });
+        bench.servo =
+            Some(ServoCommand { since_ns: ms * MS, gripper_until_ns: u64::MAX, wrench, axes: Axes::Tip });
         bench.state.pose.rotation = DQuat::from_rotation_z(angle);
         let got = bench.run(ms, ms + 20)[20].wrench;
         assert!((got.force_n - DQuat::from_rotation_z(angle) * DVec3::X).length() < 1e-12);

@@ -92,7 +92,7 @@ impl Dice {
             _ => now_ns,
         };
         let axes = if self.one_in(2) { Axes::Tip } else { Axes::Base };
-        ServoCommand { since_ns, wrench: self.wrench(), axes }
+        ServoCommand { since_ns, gripper_until_ns: u64::MAX, wrench: self.wrench(), axes }
     }
     fn law(&mut self, stamp_ns: i64, chains: &Arc<ContactLaw>) -> LawCommand {
         let broken = self.one_in(3);
@@ -179,7 +179,12 @@ fn storm(seed: u64, ticks: usize, passivity: bool) -> Tally {
         };
         if calm {
             (law, mode, permitted, lowered_n) = (None, SourceMode::Follow, true, f64::INFINITY);
-            servo = Some(ServoCommand { since_ns: now_ns, wrench: Wrench::ZERO, axes: Axes::Base });
+            servo = Some(ServoCommand {
+                since_ns: now_ns,
+                gripper_until_ns: u64::MAX,
+                wrench: Wrench::ZERO,
+                axes: Axes::Base,
+            });
         } else {
             if dice.one_in(2) {
                 servo = Some(dice.servo(now_ns));

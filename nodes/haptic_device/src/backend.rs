@@ -14,7 +14,11 @@ use scene::Scene;
     expect(unused_variables, reason = "only a hand that is not real loads the body, and warns of it")
 )]
 pub(crate) fn backend(scene: &Scene, log: &Log) -> Result<Backend> {
-    Ok(match scene.device.backend.as_str() {
+    let (name, serial) = (scene.device.backend.as_str(), &scene.device.serial);
+    if matches!(name, "simulated" | "pointer") && !serial.is_empty() {
+        anyhow::bail!("device.serial = {serial:?}: the {name} device has no serial number; accepted is \"\"");
+    }
+    Ok(match name {
         #[cfg(feature = "simulated")]
         "simulated" => Backend::Simulated(simulated_hand(scene, log)?),
         #[cfg(feature = "force_dimension")]

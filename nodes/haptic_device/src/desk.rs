@@ -1,4 +1,4 @@
-//! Where orders come in that are no forces: state commands, hold and free, the emergency stop, lifecycle transitions.
+//! Where orders come in that are no forces: state commands, hold and free, lifecycle transitions.
 //! Each goes to the motor loop, which decides; what it decided is told.
 
 use std::sync::Arc;
@@ -21,7 +21,6 @@ pub(crate) struct Desk {
     state: StateTopic,
     lifecycle: Lifecycle,
     commands: Inbox<StringStamped>,
-    emergency_stop: Inbox<Bool>,
     /// Hold and free; none for a device without motors.
     modes: Option<[(Request, Inbox<Empty>); 2]>,
     /// None for a device that has nothing to switch.
@@ -30,6 +29,9 @@ pub(crate) struct Desk {
     body_is_absolute: Arc<AtomicBool>,
     /// Whether a hold or free keeps the sources away.
     is_apart: bool,
+    /// Whether the motor loop has left an order of this turn unanswered. The others of the turn are not asked then: each
+    /// would keep this thread, and with it the emergency stop, for as long again.
+    is_busy: bool,
     told: Option<MotorStatus>,
 }
 
@@ -67,7 +69,6 @@ impl Desk {
                 graph: kit.serve(&services::GET_TRANSITION_GRAPH)?,
             },
             commands: kit.subscribe(&topics::STATE_COMMAND, "")?,
-            emergency_stop: kit.subscribe(&topics::EMERGENCY_STOP, "")?,
             modes,
             gravity: match can_carry_itself {
                 true => Some(kit.subscribe(&topics::USE_GRAVITY_COMPENSATION, "")?),
@@ -76,29 +77,14 @@ impl Desk {
             absolute: kit.subscribe(&topics::BODY_SET_CF_ORIENTATION_ABSOLUTE, "")?,
             body_is_absolute: shared.body_is_absolute.clone(),
             is_apart: false,
+            is_busy: false,
             told: None,
         })
     }
 
-    /// The emergency stop. To be looked at before anything else.
-    pub(crate) fn take_emergency_stop(&mut self, kit: &NodeKit, motor: &mut MotorLoop) {
-        while let Some(Bool { data: pressed }) = self.emergency_stop.take() {
-            // Whose stop it was is not in the message; with several stops only all of them together may release it.
-            let others =
-                kit.publishers_of(&topics::EMERGENCY_STOP, "").map_or(usize::MAX, |nodes| nodes.len());
-            if !pressed && others > 1 {
-                kit.log().error(
-                    "emergency stop: not released, because more than one node publishes it; stop all but one",
-                );
-                continue;
-            }
-            motor.set_emergency_stop(pressed);
-            kit.log().warn(if pressed { "emergency stop pressed" } else { "emergency stop released" });
-        }
-    }
-
     /// Takes the orders that wait, answers the calls that wait, tells what has changed. True when the state has.
     pub(crate) fn take(&mut self, kit: &NodeKit, motor: &mut MotorLoop) -> Result<bool, PublishError> {
+        self.is_busy = false;
         while let Some(message) = self.commands.take() {
             match message.string.parse() {
                 Ok(command) => drop(self.command(kit, motor, command)),
@@ -109,12 +95,12 @@ impl Desk {
         }
         for (request, inbox) in self.modes.iter_mut().flatten() {
             while inbox.take().is_some() {
-                self.is_apart |= order(kit, motor, *request);
+                self.is_apart |= order(kit, motor, *request, &mut self.is_busy);
             }
         }
         if let Some(gravity) = &mut self.gravity {
             while let Some(message) = gravity.take() {
-                order(kit, motor, Request::GravityCompensation(message.data));
+                order(kit, motor, Request::GravityCompensation(message.data), &mut self.is_busy);
             }
         }
         while let Some(message) = self.absolute.take() {
@@ -129,14 +115,13 @@ impl Desk {
     /// Somebody commands a force anew: a hold or free has served its purpose.
     pub(crate) fn follow_again(&mut self, kit: &NodeKit, motor: &mut MotorLoop) {
         if std::mem::take(&mut self.is_apart) {
-            order(kit, motor, Request::Follow);
+            order(kit, motor, Request::Follow, &mut self.is_busy);
         }
     }
 
     /// One state command; whether it was accepted.
     fn command(&mut self, kit: &NodeKit, motor: &mut MotorLoop, command: StateCommand) -> bool {
-        let before = motor.status();
-        match motor.request(Request::State(command)) {
+        match ask(motor, Request::State(command), &mut self.is_busy) {
             Answer::Accepted(_) => {
                 if matches!(command, StateCommand::Enable | StateCommand::Resume) {
                     self.follow_again(kit, motor);
@@ -144,7 +129,7 @@ impl Desk {
                 true
             }
             Answer::Refused(state) => {
-                kit.log().warn(&refusal(command, MotorStatus { operating: state, ..before }));
+                kit.log().warn(&refusal(command, MotorStatus { operating: state, ..motor.status() }));
                 false
             }
             Answer::Unanswered => {
@@ -228,9 +213,20 @@ impl Desk {
     }
 }
 
+/// Asks the motor loop for something, unless it `is_busy`.
+fn ask(motor: &mut MotorLoop, request: Request, is_busy: &mut bool) -> Answer {
+    // What takes force away is asked for whatever else waits.
+    if *is_busy && request != Request::State(StateCommand::Disable) {
+        return Answer::Unanswered;
+    }
+    let answer = motor.request(request);
+    *is_busy |= answer == Answer::Unanswered;
+    answer
+}
+
 /// Asks the motor loop for something and says when it does not do it; whether it does.
-fn order(kit: &NodeKit, motor: &mut MotorLoop, request: Request) -> bool {
-    match motor.request(request) {
+fn order(kit: &NodeKit, motor: &mut MotorLoop, request: Request, is_busy: &mut bool) -> bool {
+    match ask(motor, request, is_busy) {
         Answer::Accepted(_) => true,
         Answer::Refused(state) => {
             kit.log().warn(&format!("{}: not in state {state}", words(request)));

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
 use devices::{
-    Answer, Backend, Device, DeviceError, MotorError, MotorLoop, MotorSettings, SampleSender, Scheduling,
-    samples,
+    Answer, Backend, Description, Device, DeviceError, MotorError, MotorLoop, MotorSettings, SampleSender,
+    Scheduling, samples,
 };
 use node_kit::NodeKit;
 use scene::{Scene, Value};
@@ -16,6 +16,7 @@ use scene::{Scene, Value};
 use crate::backend::backend;
 use crate::decimation::EveryNth;
 use crate::desk::Desk;
+use crate::emergency_stop::EmergencyStop;
 use crate::forces::Forces;
 use crate::motor_settings::motor_settings;
 use crate::operating_report::OperatingReport;
@@ -42,10 +43,10 @@ const REMINDER: Duration = Duration::from_secs(5);
 /// Runs the driver until the process is asked to end. `around` may put something around the device that was opened.
 pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box<dyn Device>) -> Result<()> {
     let scene = Scene::from_parameters(kit.parameters().clone())?;
-    let clutch_button = clutch_button(&scene)?;
-    let settings = motor_settings(&scene)?;
+    let mut settings = motor_settings(&scene)?;
     let backend = backend(&scene, kit.log())?;
     let mut device = around(backend.open()?);
+    let clutch_button = clutch_button(&scene, device.description())?;
     let can_carry_itself = can_carry_itself(&mut *device, settings.gravity_compensation)?;
 
     let pose_is_due = EveryNth::of_rates(settings.rate_hz, scene.device.pose_rate_hz);
@@ -58,6 +59,7 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
     };
     let _standing = Standing::new(kit, &scene, &shared.frames.base)?;
     let outbox = Outbox::new(kit, &shared, clutch_button, pose_is_due)?;
+    let mut emergency_stop = EmergencyStop::new(kit, &scene.session.devices)?;
     let desk = Desk::new(kit, &shared, can_carry_itself)?;
     let forces = Forces::new(kit, &shared, &scene, &settings.safety)?;
     #[cfg(feature = "pointer")]
@@ -71,11 +73,18 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
     let report = OperatingReport::new(&shared.description, &settings.safety, settings.source);
     report.warn(kit.log());
     wait_for_readers(kit, &outbox, scene.device.wait_for_readers);
+    if !kit.is_running() {
+        return Ok(());
+    }
 
     let (sender, receiver) = samples(RING);
     let publisher = PublisherThread::start(outbox, receiver, shared.exchange.clone(), kit.log().clone())
         .context("the publisher thread did not start")?;
+    // A stop that was pressed before this driver came counts as well.
+    let is_stopped = emergency_stop.hear(kit);
+    settings.enable_at_start &= !is_stopped;
     let motor = start_motor(device, backend, settings, sender)?;
+    motor.set_emergency_stop(is_stopped);
     tell_scheduling(kit, motor.scheduling());
     tell_start(kit, &motor);
     let Shared { description, frames, .. } = &shared;
@@ -88,11 +97,13 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
         motor,
         publisher,
         shared,
+        emergency_stop,
         desk,
         forces,
         #[cfg(feature = "pointer")]
         pointer,
         report,
+        not_reopened: String::new(),
         max_force_n,
     }
     .run(kit)
@@ -103,12 +114,15 @@ struct Driver {
     motor: MotorLoop,
     publisher: PublisherThread,
     shared: Shared,
+    emergency_stop: EmergencyStop,
     desk: Desk,
     forces: Forces,
     /// None for another backend.
     #[cfg(feature = "pointer")]
     pointer: Option<Pointer>,
     report: OperatingReport,
+    /// Why a lost device was not opened again, as it was told last.
+    not_reopened: String,
     max_force_n: f64,
 }
 
@@ -138,7 +152,7 @@ impl Driver {
             }
         }
         self.motor.beat();
-        self.desk.take_emergency_stop(kit, &mut self.motor);
+        self.emergency_stop.take(kit, &self.motor);
         #[cfg(feature = "pointer")]
         if let Some(pointer) = &mut self.pointer {
             pointer.take(kit);
@@ -146,7 +160,18 @@ impl Driver {
         if self.forces.take(kit, &mut self.motor) {
             self.desk.follow_again(kit, &mut self.motor);
         }
+        self.tell_lost_device(kit);
         Ok(self.desk.take(kit, &mut self.motor)?)
+    }
+
+    /// Says why a lost device is not opened again; the same reason once.
+    fn tell_lost_device(&mut self, kit: &NodeKit) {
+        if let Some(why) = self.motor.take_not_reopened()
+            && why != self.not_reopened
+        {
+            kit.log().warn(&format!("the lost device is looked for: {why}"));
+            self.not_reopened = why;
+        }
     }
 
     fn health(&self) -> Health {
@@ -167,6 +192,7 @@ impl Driver {
         let conflicts = self.forces.conflicts();
         let mut statuses = health.statuses(before, &conflicts, &self.motor.scheduling().to_string());
         statuses.push(self.operating_status());
+        statuses.push(self.emergency_stop.status());
         #[cfg(feature = "pointer")]
         statuses.extend(self.pointer.as_mut().map(Pointer::status));
         statuses
@@ -204,6 +230,8 @@ fn start_motor(
     settings: MotorSettings,
     samples: SampleSender,
 ) -> Result<MotorLoop, MotorError> {
+    // Whatever is connected meanwhile, a device that was lost is that one.
+    let backend = backend.for_serial(&device.description().serial);
     let mut open = Some(device);
     let opener = move || match open.take() {
         Some(device) => Ok(device),
@@ -238,12 +266,16 @@ fn can_carry_itself(device: &mut dyn Device, on: bool) -> Result<bool, DeviceErr
 }
 
 /// The number of the clutch button; none without a clutch.
-fn clutch_button(scene: &Scene) -> Result<Option<u32>> {
+fn clutch_button(scene: &Scene, device: &Description) -> Result<Option<u32>> {
     let Some(text) = &scene.session.clutch_button else { return Ok(None) };
+    let buttons = device.buttons.len() as u32;
     match text.parse() {
-        Ok(button @ 0..=31) => Ok(Some(button)),
+        Ok(button) if button < buttons => Ok(Some(button)),
         _ => Err(anyhow!(
-            "clutch.button \"{text}\": accepted are a button's number, \"0\" to \"31\", and \"\" for none"
+            "clutch.button \"{text}\": {} has {buttons} buttons ({}); accepted are the number of one, \"0\" for the \
+             first, and \"\" for none",
+            device.model,
+            device.buttons.join(", ")
         )),
     }
 }

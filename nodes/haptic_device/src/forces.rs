@@ -21,6 +21,8 @@ use crate::wrench_frame::body_axes;
 
 /// Between two looks at who publishes the command topics.
 const LOOK: Duration = Duration::from_millis(100);
+/// The same for a topic that is in use: so long a second publisher's commands are taken for the first one's.
+const BUSY_LOOK: Duration = Duration::from_millis(20);
 /// Between two looks while a publisher is not known yet.
 const EAGER_LOOK: Duration = Duration::from_millis(10);
 /// Between two lines of one kind.
@@ -47,7 +49,7 @@ pub(crate) struct Forces {
     reader: LawReader,
     stability: StabilityWatch,
     sources: Sources,
-    looked: Option<Instant>,
+    looked: Looked,
     gripper: GripperForce,
     backlog: Backlog,
     /// Since when the commanded wrenches count.
@@ -69,6 +71,19 @@ struct WrenchInbox {
     freshness: Freshness,
 }
 
+/// When it was last looked who publishes the command topics.
+#[derive(Clone, Copy, Default)]
+struct Looked {
+    everywhere: Option<Instant>,
+    somewhere: Option<Instant>,
+    /// Topics that commands came by since the last look.
+    used: [bool; CommandTopic::ALL.len()],
+}
+
+fn is_past(looked: Option<Instant>, period: Duration) -> bool {
+    looked.is_none_or(|looked| looked.elapsed() >= period)
+}
+
 /// One line a second for each kind of trouble.
 struct Lines {
     rejected: Throttle,
@@ -86,9 +101,9 @@ struct GripperForce {
 }
 
 impl GripperForce {
-    fn at(&self, now_ns: u64) -> f64 {
-        let is_valid = self.since_ns.is_some_and(|ns| now_ns.saturating_sub(ns) <= self.validity_ns);
-        if is_valid { self.force_n } else { 0.0 }
+    /// Until when it may be used.
+    fn until_ns(&self) -> u64 {
+        self.since_ns.map_or(0, |ns| ns.saturating_add(self.validity_ns))
     }
 }
 
@@ -131,7 +146,7 @@ impl Forces {
             shared: shared.clone(),
             stability: StabilityWatch::new(scene),
             sources: Sources::default(),
-            looked: None,
+            looked: Looked::default(),
             backlog: Backlog::new(servo_ns.unsigned_abs()),
             since: Since::default(),
             gripper: GripperForce { force_n: 0.0, since_ns: None, validity_ns: servo_ns.unsigned_abs() },
@@ -153,7 +168,7 @@ impl Forces {
     /// Passes on what arrived. True when a force came that answers no pose: a client commands anew.
     pub(crate) fn take(&mut self, kit: &NodeKit, motor: &mut MotorLoop) -> bool {
         let Some(mut inboxes) = self.inboxes.take() else { return false };
-        self.look(kit, LOOK);
+        self.look_around(kit);
         self.backlog.begin_turn(monotonic_ns());
         // Laws first: with one of them the motor loop does not need the force.
         while let Some(message) = inboxes.laws.0.take() {
@@ -178,7 +193,8 @@ impl Forces {
                 if let Some((wrench, axes, age_ns)) = self.wrench(kit, *topic, &message, freshness) {
                     is_anew |= !answers;
                     let since_ns = self.since.of(now_ns, age_ns);
-                    motor.send_servo(ServoCommand { since_ns, wrench, axes });
+                    let gripper_until_ns = self.gripper.until_ns();
+                    motor.send_servo(ServoCommand { since_ns, gripper_until_ns, wrench, axes });
                 }
             }
         }
@@ -202,7 +218,7 @@ impl Forces {
         let wrench = Wrench {
             force_n: convert::dvec3_of_vector(&message.wrench.force),
             torque_n_m: convert::dvec3_of_vector(&message.wrench.torque),
-            gripper_force_n: self.gripper.at(monotonic_ns()),
+            gripper_force_n: self.gripper.force_n,
         };
         if let Err(reason) = self.shared.frames.check(axes, &message.header.frame_id) {
             return self.reject(kit, topic, &reason);
@@ -254,13 +270,22 @@ impl Forces {
         Some(command)
     }
 
-    /// Looks who publishes the command topics, unless that was done within `period`.
-    fn look(&mut self, kit: &NodeKit, period: Duration) {
-        if self.looked.is_some_and(|looked| looked.elapsed() < period) {
-            return;
+    /// Looks who publishes the command topics, where that was not done a short while ago.
+    fn look_around(&mut self, kit: &NodeKit) {
+        if is_past(self.looked.everywhere, LOOK) {
+            self.look(kit, [true; CommandTopic::ALL.len()]);
+        } else if is_past(self.looked.somewhere, BUSY_LOOK) {
+            self.look(kit, self.looked.used);
         }
-        self.looked = Some(Instant::now());
-        for topic in CommandTopic::ALL {
+    }
+
+    fn look(&mut self, kit: &NodeKit, which: [bool; CommandTopic::ALL.len()]) {
+        let now = Instant::now();
+        if which.iter().all(|is_asked| *is_asked) {
+            self.looked.everywhere = Some(now);
+        }
+        self.looked = Looked { somewhere: Some(now), used: Default::default(), ..self.looked };
+        for topic in CommandTopic::ALL.into_iter().filter(|topic| which[*topic as usize]) {
             let publishers = match topic {
                 CommandTopic::Servo => kit.publishers_of(&topics::SERVO_CF, ""),
                 CommandTopic::SpatialServo => kit.publishers_of(&topics::SPATIAL_SERVO_CF, ""),
@@ -283,8 +308,9 @@ impl Forces {
 
     /// Whether the topic has one publisher. Checked before the first force of it is followed.
     fn is_only_source(&mut self, kit: &NodeKit, topic: CommandTopic) -> bool {
-        if !self.sources.knows(topic) {
-            self.look(kit, EAGER_LOOK);
+        self.looked.used[topic as usize] = true;
+        if !self.sources.knows(topic) && is_past(self.looked.somewhere, EAGER_LOOK) {
+            self.look(kit, [true; CommandTopic::ALL.len()]);
         }
         let Some(refusal) = self.sources.refusal(topic) else { return true };
         self.counts.contested += 1;

@@ -11,6 +11,7 @@ mod buttons;
 mod decimation;
 mod desk;
 mod driver;
+mod emergency_stop;
 mod forces;
 mod freshness;
 mod law_message;

@@ -47,20 +47,23 @@ impl OperatingReport {
         }
     }
 
-    /// The status now. A fault is an error; so are settings that are not safe for a hand, as long as they hold.
+    /// The status now. A fault is an error; so are settings that are not safe for a hand, as long as they hold. What keeps
+    /// motors that are off from being enabled is a warning.
     pub(crate) fn status(&self, motor: MotorStatus, newest: Option<&Sample>) -> Status {
-        let summary = match motor.fault {
+        let summary = match motor.fault.or(motor.barred_by) {
             Some(cause) => format!("{}: {cause}", motor.operating),
             None => motor.operating.to_string(),
         };
         let (level, summary) = match (motor.operating, self.unsafe_settings.as_slice()) {
             (OperatingState::Fault, _) => (Level::Error, summary),
             (_, [first, ..]) => (Level::Error, format!("{summary}; {first}")),
+            _ if motor.barred_by.is_some() => (Level::Warn, summary),
             _ => (Level::Ok, summary),
         };
         let mut status = Status::new(level, "operating state", summary)
             .with("state", motor.operating)
             .with("fault", motor.fault.map_or(String::new(), |cause| cause.to_string()))
+            .with("barred_by", motor.barred_by.map_or(String::new(), |cause| cause.to_string()))
             .with("is_homed", motor.is_homed)
             .with("is_busy", motor.is_busy)
             .with("unsafe_parameters", self.unsafe_settings.join(" | "));
@@ -151,6 +154,14 @@ mod tests {
         assert!(text(&report, OperatingState::Paused, None).contains("level: Ok"));
         let fault = text(&report, OperatingState::Fault, Some(FaultCause::Velocity));
         assert!(fault.contains("level: Error") && fault.contains("FAULT: the handle was faster"), "{fault}");
+    }
+
+    #[test]
+    fn what_keeps_the_motors_off_is_a_warning_without_a_fault() {
+        let report = report(SafetySettings::default(), &[]);
+        let pressed = MotorStatus { barred_by: Some(FaultCause::EmergencyStop), ..MotorStatus::default() };
+        let text = format!("{:?}", report.status(pressed, None));
+        assert!(text.contains("level: Warn") && text.contains("DISABLED: emergency stop"), "{text}");
     }
 
     #[test]

@@ -92,10 +92,10 @@ impl StateTopic {
 /// Why a command changed nothing: this state has no such transition, or something is still wrong.
 pub(crate) fn refusal(command: StateCommand, status: MotorStatus) -> String {
     let (word, state) = (command.word(), status.operating);
-    match (state.after(command), status.fault) {
+    match (state.after(command), status.barred_by) {
         (None, _) => format!("{word}: not accepted in state {state}"),
-        (Some(_), Some(cause)) => format!("{word}: not now: {cause}"),
-        (Some(_), None) => format!("{word}: this device does not do that"),
+        (Some(_), Some(cause)) if command == StateCommand::Enable => format!("{word}: not now: {cause}"),
+        (Some(_), _) => format!("{word}: this device does not do that"),
     }
 }
 
@@ -126,8 +126,11 @@ mod tests {
 
     #[test]
     fn a_refused_command_is_told_why() {
-        let status = |operating, fault| MotorStatus { operating, fault, ..MotorStatus::default() };
-        let fault = status(OperatingState::Fault, Some(FaultCause::EmergencyStop));
+        let status = |operating, barred_by| MotorStatus { operating, barred_by, ..MotorStatus::default() };
+        let fault = MotorStatus {
+            fault: Some(FaultCause::Velocity),
+            ..status(OperatingState::Fault, Some(FaultCause::EmergencyStop))
+        };
         assert_eq!(refusal(StateCommand::Resume, fault), "resume: not accepted in state FAULT");
         assert!(refusal(StateCommand::Enable, fault).starts_with("enable: not now: emergency stop"));
         let enabled = status(OperatingState::Enabled, None);

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use devices::monotonic_ns;
 use devices::pointer::{Target, TargetSender};
-use node_kit::{Inbox, Level, NodeKit, StartError, Status, Throttle, convert, topics};
+use node_kit::{Inbox, Level, NodeKit, RemotePublisher, StartError, Status, Throttle, convert, topics};
 use r2r::geometry_msgs::msg::PoseStamped;
 use scene::Scene;
 use serde_json::{Value, json};
@@ -13,7 +13,7 @@ use crate::freshness::{Backlog, Freshness, age_ns};
 use crate::now::now_ns;
 use crate::placement::Placement;
 use crate::pointer_frames::PointerFrames;
-use crate::sources::several;
+use crate::sources::{names, trouble};
 
 /// Between two looks at who publishes the topic.
 const LOOK: Duration = Duration::from_millis(100);
@@ -43,7 +43,7 @@ pub(crate) struct Pointer {
     timeout_ns: i64,
     freshness: Freshness,
     backlog: Backlog,
-    publishers: Vec<String>,
+    publishers: Vec<RemotePublisher>,
     looked: Option<Instant>,
     /// When the last target that is followed ends to count, by the monotonic clock.
     ends_ns: u64,
@@ -157,7 +157,7 @@ impl Pointer {
         if self.publishers.is_empty() {
             self.look(kit, EAGER_LOOK);
         }
-        if self.publishers.len() == 1 {
+        if self.publishers.len() == 1 && self.conflict().is_none() {
             return true;
         }
         self.counts.contested += 1;
@@ -168,7 +168,7 @@ impl Pointer {
     }
 
     fn conflict(&self) -> Option<String> {
-        several(name(), &self.publishers, "target")
+        trouble(name(), &self.publishers, "target")
     }
 
     /// The diagnostics, compared with those before.
@@ -189,7 +189,7 @@ impl Pointer {
             .with("rejected", rejected)
             .with("untimely", untimely)
             .with("contested", contested)
-            .with("publisher", self.publishers.join(", "))
+            .with("publisher", names(&self.publishers))
     }
 
     /// The same for the closing report.

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use node_kit::RemotePublisher;
+
 /// A topic that moves the motors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CommandTopic {
@@ -41,23 +43,38 @@ impl CommandTopic {
     }
 }
 
-/// Two publishers of one topic, in words that name their nodes and what does not come of it; none for one or nobody.
-pub(crate) fn several(topic: &str, publishers: &[String], what: &str) -> Option<String> {
-    let (count, nodes) = (publishers.len(), publishers.join(", "));
-    (count > 1)
-        .then(|| format!("{topic} has {count} publishers ({nodes}): no {what} from it until there is one"))
+/// Two publishers of one topic, or one that this node's reliable subscription does not match, in words that name their
+/// nodes and what does not come of it; none for one that is heard, or nobody.
+pub(crate) fn trouble(topic: &str, publishers: &[RemotePublisher], what: &str) -> Option<String> {
+    match publishers {
+        [only] if !only.is_reliable => Some(format!(
+            "{topic}: what {} publishes is best effort and does not arrive: no {what} from it until it is reliable",
+            only.node
+        )),
+        [] | [_] => None,
+        several => Some(format!(
+            "{topic} has {} publishers ({}): no {what} from it until there is one",
+            several.len(),
+            names(several)
+        )),
+    }
+}
+
+/// The nodes of publishers, in words.
+pub(crate) fn names(publishers: &[RemotePublisher]) -> String {
+    publishers.iter().map(|publisher| publisher.node.as_str()).collect::<Vec<_>>().join(", ")
 }
 
 /// The publishers of every command topic, as last seen.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sources {
-    /// Full names of nodes, by the order of [`CommandTopic::ALL`].
-    publishers: [Vec<String>; CommandTopic::ALL.len()],
+    /// By the order of [`CommandTopic::ALL`].
+    publishers: [Vec<RemotePublisher>; CommandTopic::ALL.len()],
 }
 
 impl Sources {
-    /// The nodes that publish a topic, one entry for each publisher.
-    pub(crate) fn see(&mut self, topic: CommandTopic, publishers: Vec<String>) {
+    /// Who publishes a topic.
+    pub(crate) fn see(&mut self, topic: CommandTopic, publishers: Vec<RemotePublisher>) {
         self.publishers[topic as usize] = publishers;
     }
 
@@ -85,35 +102,36 @@ impl Sources {
         conflicts
     }
 
-    fn of(&self, topic: CommandTopic) -> &[String] {
+    fn of(&self, topic: CommandTopic) -> &[RemotePublisher] {
         &self.publishers[topic as usize]
     }
 
     fn conflict(&self, topic: CommandTopic) -> Option<String> {
         let own = self.of(topic);
-        if let Some(conflict) = several(topic.name(), own, "force") {
-            return Some(conflict);
+        if let Some(trouble) = trouble(topic.name(), own, "force") {
+            return Some(trouble);
         }
         let is_wrench = CommandTopic::WRENCH.contains(&topic) && !own.is_empty();
-        let mut nodes: Vec<&str> = self.wrench_publishers().map(|(_, node)| node).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        if !is_wrench || nodes.len() < 2 {
+        // One node may have all of them; two nodes of one name in two processes are two.
+        let client = |(_, publisher): (_, &'_ RemotePublisher)| (publisher.node.clone(), publisher.process);
+        let mut clients = self.wrench_publishers().map(client);
+        let first = clients.next();
+        if !is_wrench || clients.all(|other| Some(other) == first) {
             return None;
         }
         let mut text = "several nodes command the wrench (".to_owned();
-        for (i, (topic, node)) in self.wrench_publishers().enumerate() {
+        for (i, (topic, publisher)) in self.wrench_publishers().enumerate() {
             let comma = if i == 0 { "" } else { ", " };
             // Writing to a string does not fail.
-            let _ = write!(text, "{comma}{node} by {}", topic.name());
+            let _ = write!(text, "{comma}{} by {}", publisher.node, topic.name());
         }
         Some(text + "): no force from them until there is one")
     }
 
-    fn wrench_publishers(&self) -> impl Iterator<Item = (CommandTopic, &str)> {
+    fn wrench_publishers(&self) -> impl Iterator<Item = (CommandTopic, &RemotePublisher)> {
         CommandTopic::WRENCH
             .into_iter()
-            .flat_map(|topic| self.of(topic).iter().map(move |node| (topic, node.as_str())))
+            .flat_map(|topic| self.of(topic).iter().map(move |publisher| (topic, publisher)))
     }
 }
 
@@ -122,10 +140,14 @@ mod tests {
     use super::CommandTopic::{BodyServo, GripperServo, Law, Servo, SpatialServo};
     use super::*;
 
+    fn publisher(node: &str) -> RemotePublisher {
+        RemotePublisher { node: node.to_owned(), process: [0; 12], is_reliable: true }
+    }
+
     fn sources(seen: &[(CommandTopic, &[&str])]) -> Sources {
         let mut sources = Sources::default();
         for (topic, nodes) in seen {
-            sources.see(*topic, nodes.iter().map(|&node| node.to_owned()).collect());
+            sources.see(*topic, nodes.iter().map(|&node| publisher(node)).collect());
         }
         sources
     }
@@ -162,6 +184,23 @@ mod tests {
         assert_eq!(sources.refusal(Servo).unwrap(), refusal);
         assert_eq!(sources.refusal(GripperServo), None);
         assert_eq!(sources.conflicts(), [refusal], "said once");
+    }
+
+    #[test]
+    fn two_processes_whose_nodes_have_one_name_are_two_clients() {
+        let mut sources = sources(&[(Servo, &["/client"])]);
+        sources.see(BodyServo, vec![RemotePublisher { process: [7; 12], ..publisher("/client") }]);
+        let refusal = sources.refusal(BodyServo).unwrap();
+        assert!(refusal.contains("/client by servo_cf, /client by body/servo_cf"), "{refusal}");
+        assert_eq!(sources.refusal(Servo).unwrap(), refusal);
+    }
+
+    #[test]
+    fn a_publisher_that_cannot_be_heard_is_named() {
+        let mut sources = Sources::default();
+        sources.see(Law, vec![RemotePublisher { is_reliable: false, ..publisher("/model") }]);
+        let [text] = &sources.conflicts()[..] else { panic!("{:?}", sources.conflicts()) };
+        assert!(text.starts_with("contact_law: what /model publishes is best effort"), "{text}");
     }
 
     #[test]

@@ -10,6 +10,7 @@ use scene::{Node, Parameters, Value};
 use crate::arguments::RosArguments;
 use crate::clock::NodeClock;
 use crate::diagnostics::{Diagnostics, Status};
+use crate::graph::RemotePublisher;
 use crate::log::Log;
 use crate::parameters::{self, Change, ParameterServices, Store, TogetherCheck};
 use crate::security::Transport;
@@ -210,6 +211,18 @@ impl NodeKit {
         self.subscribe_with(topic, sub_namespace, topic.qos().keep_last(1).best_effort())
     }
 
+    /// [`subscribe`](NodeKit::subscribe) to what was said before, too, by those publishers that keep it; those that keep
+    /// nothing are not heard at all.
+    ///
+    /// # Errors
+    /// rcl refuses, for instance because the name is none.
+    pub fn subscribe_kept<M>(&mut self, topic: &Topic<M>, sub_namespace: &str) -> Result<Inbox<M>, StartError>
+    where
+        M: WrappedTypesupport + Send + 'static,
+    {
+        self.subscribe_with(topic, sub_namespace, topic.qos().transient_local())
+    }
+
     fn subscribe_with<M>(
         &mut self,
         topic: &Topic<M>,
@@ -237,20 +250,22 @@ impl NodeKit {
         Service::new(&mut self.node, service)
     }
 
-    /// The nodes that publish a topic, each with its full name, a node with two publishers twice. A node of which only
-    /// the publisher has been discovered so far is "a node not yet known". Asks the middleware's memory of the graph:
-    /// fit for a few times a second.
+    /// Who publishes a topic, a node with two publishers twice. Asks the middleware's memory of the graph: fit for a few
+    /// times a second.
     ///
     /// # Errors
     /// What rcl says.
-    pub fn publishers_of<M>(&self, topic: &Topic<M>, sub_namespace: &str) -> Result<Vec<String>, r2r::Error> {
+    pub fn publishers_of<M>(
+        &self,
+        topic: &Topic<M>,
+        sub_namespace: &str,
+    ) -> Result<Vec<RemotePublisher>, r2r::Error> {
         let name = self.arguments.topic_in_graph(&topic.name_in(sub_namespace), &self.full_name);
         let publishers = self.node.get_publishers_info_by_topic(&name, false)?;
-        let full_names = publishers.into_iter().map(|publisher| match publisher.node_name.as_str() {
-            "" | "_NODE_NAME_UNKNOWN_" => "a node not yet known".to_owned(),
-            name => format!("{}/{name}", publisher.node_namespace.trim_end_matches('/')),
+        let publishers = publishers.iter().map(|it| {
+            RemotePublisher::new(&it.node_name, &it.node_namespace, &it.endpoint_gid, &it.qos_profile)
         });
-        Ok(full_names.collect())
+        Ok(publishers.collect())
     }
 
     /// Whether the topic is known to the graph: some node publishes it or subscribes to it. As

@@ -11,6 +11,7 @@ mod context;
 pub mod convert;
 mod diagnostics;
 mod error;
+mod graph;
 mod histogram;
 mod kit;
 mod log;
@@ -26,6 +27,7 @@ mod wire;
 
 pub use diagnostics::{Level, Status};
 pub use error::{PublishError, StartError};
+pub use graph::RemotePublisher;
 pub use histogram::Histogram;
 pub use kit::NodeKit;
 pub use log::{Log, Throttle};

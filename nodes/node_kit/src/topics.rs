@@ -41,11 +41,11 @@ impl<M> Topic<M> {
         &self.name
     }
 
-    /// The name in the sub-namespace of one device; "" is the node's own namespace.
+    /// The name in the sub-namespace of one device; "" is the node's own namespace, "/" that of the whole graph.
     pub fn name_in(&self, sub_namespace: &str) -> String {
-        match sub_namespace.trim_end_matches('/') {
+        match sub_namespace {
             "" => self.name().to_owned(),
-            sub_namespace => format!("{sub_namespace}/{}", self.name),
+            sub_namespace => format!("{}/{}", sub_namespace.trim_end_matches('/'), self.name),
         }
     }
 
@@ -102,8 +102,9 @@ pub const USE_GRAVITY_COMPENSATION: Topic<Bool> = Topic::new("use_gravity_compen
 pub const STATE_COMMAND: Topic<StringStamped> = Topic::new("state_command", reliable(10));
 /// The device's operating state, at every change and in answer to every command: device, latched.
 pub const OPERATING_STATE: Topic<OperatingState> = Topic::new("operating_state", latched(10));
-/// True takes the force away and latches a fault: anyone to device.
-pub const EMERGENCY_STOP: Topic<Bool> = Topic::new("emergency_stop", reliable(10));
+/// True takes the force away and latches a fault: anyone to device. Deep, because a stop that repeats its state must not
+/// push the one message that counts out of the queue.
+pub const EMERGENCY_STOP: Topic<Bool> = Topic::new("emergency_stop", reliable(1000));
 /// Where the hand of a pointer device is asked to go: visualization or anyone to a pointer device.
 pub const POINTER_TARGET: Topic<PoseStamped> = Topic::new(topic::POINTER_TARGET, reliable(10));
 /// Changes of the device's lifecycle state: device.
@@ -218,5 +219,6 @@ mod tests {
         assert_eq!(MEASURED_CP.name_in(""), "measured_cp");
         assert_eq!(MEASURED_CP.name_in("left"), "left/measured_cp");
         assert_eq!(MEASURED_CP.name_in("/left/"), "/left/measured_cp");
+        assert_eq!(MEASURED_CP.name_in("/"), "/measured_cp");
     }
 }

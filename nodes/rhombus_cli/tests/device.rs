@@ -343,9 +343,18 @@ fn list_tells_what_is_there_what_is_not_and_why_and_is_1_when_there_is_nothing()
     let (code, listing) = list(&["--port", &serial.port(), "--sdk", "/nowhere/sdk"]);
     assert_eq!(code, 0, "{listing}");
     assert_eq!(of(&listing, "serial")["devices"][0]["name"], "serial:D9", "{listing}");
-    assert!(text(&of(&listing, "force_dimension")["problem"]).contains("/nowhere/sdk"), "{listing}");
-    assert!(text(&of(&listing, "force_dimension")["remedy"]).contains("forcedimension.com"), "{listing}");
-    assert!(text(&of(&listing, "haply")["problem"]).contains("no service listens"), "{listing}");
+    assert!(
+        text(&of(&listing, "force_dimension")["problems"][0]["problem"]).contains("/nowhere/sdk"),
+        "{listing}"
+    );
+    assert!(
+        text(&of(&listing, "force_dimension")["problems"][0]["remedy"]).contains("forcedimension.com"),
+        "{listing}"
+    );
+    assert!(
+        text(&of(&listing, "haply")["problems"][0]["problem"]).contains("no service listens"),
+        "{listing}"
+    );
     assert!(listing["device_files"].is_array() && listing["udev_rules"].is_object());
     serial.motors_stayed_off();
 
@@ -356,7 +365,8 @@ fn list_tells_what_is_there_what_is_not_and_why_and_is_1_when_there_is_nothing()
     let nothing = listing["backends"].as_array().expect("backends").iter().all(is_nothing);
     assert_eq!(code, i32::from(nothing), "{listing}");
     assert!(
-        text(&of(&listing, "serial")["problem"]).contains("rhombus device check serial --port"),
+        text(&of(&listing, "serial")["problems"][0]["problem"])
+            .contains("rhombus device check serial --port"),
         "{listing}"
     );
 }

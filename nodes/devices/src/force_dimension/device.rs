@@ -47,7 +47,11 @@ impl ForceDimensionDevice {
             move |failure: Failure| refused(format!("{what}: {} ({})", failure.text(), sdk.last_words()))
         };
         let number = sdk.system_type(id).map_err(answer("it does not say what it is"))?;
-        let model = Model::of_type(number).map_err(refused)?;
+        let model = Model::of_type(number).map_err(|what| DeviceError::Protocol {
+            device: BACKEND,
+            what: format!("device {serial}: {what}"),
+            remedy: "choose another one with device.serial".to_owned(),
+        })?;
         let (has_active_wrist, has_active_gripper) = (sdk.has_active_wrist(id), sdk.has_active_gripper(id));
         let [force, torque, grip] = sdk.max_wrench(id);
         let limit = |what, own, ours| held_limit(what, own, ours).map_err(refused);

@@ -213,19 +213,46 @@ fn an_owner_that_is_silent_is_a_fault_until_it_is_back_and_says_so() {
 }
 
 #[test]
-fn one_reading_that_is_not_finite_is_a_glitch_and_ten_in_a_row_are_a_fault() {
-    let mut bench = bench();
-    bench.ask(Enable);
-    for _ in 0..3 {
-        for _ in 0..9 {
-            bench.operation.watch_unusable(MS);
+fn readings_that_are_not_finite_are_a_glitch_one_at_a_time_and_a_fault_ten_in_a_row_or_more_than_one_in_ten()
+{
+    // Of unusable readings and good ones after them, again and again.
+    let fault = |unusable: usize, good: usize, times: usize| {
+        let mut bench = bench();
+        bench.ask(Enable);
+        for _ in 0..times {
+            (0..unusable).for_each(|_| bench.operation.watch_unusable(MS));
+            (0..good).for_each(|_| _ = bench.period(&still(), MS));
         }
-        assert_eq!(bench.period(&still(), MS), Enabled);
+        bench.operation.fault()
+    };
+    assert_eq!(fault(9, 1000, 1), None);
+    assert_eq!(fault(1, 10, 10_000), None);
+    for (unusable, good, times) in [(10, 0, 1), (9, 1, 2), (1, 1, 12), (1, 8, 60)] {
+        assert_eq!(
+            fault(unusable, good, times),
+            Some(FaultCause::NotFinite),
+            "{unusable} of {}",
+            unusable + good
+        );
     }
-    for _ in 0..10 {
-        bench.operation.watch_unusable(MS);
-    }
-    assert_eq!(bench.operation.fault(), Some(FaultCause::NotFinite));
+}
+
+#[test]
+fn what_keeps_the_motors_off_is_shown_without_a_fault_too() {
+    let mut bench = bench();
+    let mut shown = |pressed, command| {
+        bench.shared.set_emergency_stop(pressed);
+        bench.operation.watch_emergency_stop();
+        bench.ask(command);
+        bench.operation.publish();
+        let MotorStatus { operating, fault, barred_by, .. } = bench.shared.status();
+        (operating, fault, barred_by)
+    };
+    let stop = Some(FaultCause::EmergencyStop);
+    assert_eq!(shown(true, Enable), (Fault, stop, stop));
+    assert_eq!(shown(false, Disable), (Disabled, None, None));
+    assert_eq!(shown(true, Disable), (Disabled, None, stop));
+    assert_eq!(shown(false, Enable), (Enabled, None, None));
 }
 
 #[test]

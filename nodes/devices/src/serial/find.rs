@@ -3,7 +3,7 @@
 use std::thread;
 
 use super::{BACKEND, Port, SerialDevice, Settings, port};
-use crate::{Device, DeviceError, Found};
+use crate::{Device, DeviceError, Found, Listed};
 
 /// A port that was tried, and what came of it.
 pub(super) type Tried = (String, Result<SerialDevice<Port>, DeviceError>);
@@ -50,10 +50,9 @@ pub(super) fn choose(tried: Vec<Tried>, serial: &str) -> Result<SerialDevice<Por
     Ok(meant.remove(0).1)
 }
 
-/// What answers, for people.
-pub(super) fn found(tried: Vec<Tried>) -> Result<Vec<Found>, DeviceError> {
-    let mut found = Vec::new();
-    let mut barred = None;
+/// What answers, for people, and what stands in the way of the rest. A port with nothing to say belongs to something else.
+pub(super) fn listed(tried: Vec<Tried>) -> Listed {
+    let mut listed = Listed::default();
     for (path, result) in tried {
         match result {
             Ok(device) => {
@@ -61,16 +60,13 @@ pub(super) fn found(tried: Vec<Tried>) -> Result<Vec<Found>, DeviceError> {
                 let (model, firmware) = (&description.model, &description.firmware);
                 let what =
                     format!("{model} at {path}, firmware {firmware}, {} states/s", device.state_rate_hz());
-                found.push(Found { backend: BACKEND, serial: description.serial.clone(), what });
+                listed.found.push(Found { backend: BACKEND, serial: description.serial.clone(), what });
             }
-            Err(error @ (DeviceError::Permission { .. } | DeviceError::Busy { .. })) => barred = Some(error),
-            Err(_) => {}
+            Err(DeviceError::NotFound { .. }) => {}
+            Err(problem) => listed.problems.push(problem),
         }
     }
-    match barred {
-        Some(error) if found.is_empty() => Err(error),
-        _ => Ok(found),
-    }
+    listed
 }
 
 fn ambiguous(meant: &[(String, SerialDevice<Port>)]) -> DeviceError {

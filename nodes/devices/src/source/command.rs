@@ -70,6 +70,8 @@ pub struct ServoCommand {
     /// Since when it counts, by [`monotonic_ns`](crate::monotonic_ns): its stamp, or its arrival where it has none. Later
     /// for every command.
     pub since_ns: u64,
+    /// Until when the wrench's gripper force counts, by the same clock; it has a stamp of its own.
+    pub gripper_until_ns: u64,
     /// On the hand.
     pub wrench: Wrench,
     /// Its axes.

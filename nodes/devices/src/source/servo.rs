@@ -45,10 +45,13 @@ impl Servo {
     /// The command, in the device frame for the handle as it is now, and until when it may be used in full; none when it
     /// is older. RT safe.
     pub(super) fn wrench(&self, state: &DeviceState, validity_ns: u64, now: Moment) -> Option<(Wrench, u64)> {
-        let ServoCommand { since_ns, wrench, axes } = self.last?;
+        let ServoCommand { since_ns, gripper_until_ns, mut wrench, axes } = self.last?;
         let until_ns = since_ns.saturating_add(validity_ns);
         if now.monotonic_ns > until_ns {
             return None;
+        }
+        if now.monotonic_ns > gripper_until_ns {
+            wrench.gripper_force_n = 0.0;
         }
         let wrench = match axes {
             Axes::Base => wrench,

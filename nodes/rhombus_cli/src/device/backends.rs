@@ -6,7 +6,7 @@ use std::time::Duration;
 use anyhow::bail;
 use clap::{Args, ValueHint};
 use devices::simulated::{Flaws, HandSettings, Phase, Script, Segment};
-use devices::{Backend, DeviceError, Found, force_dimension, haply, pointer, serial, simulated, spacemouse};
+use devices::{Backend, DeviceError, Listed, force_dimension, haply, pointer, serial, simulated, spacemouse};
 
 /// Backends of real devices, in the order in which they are asked.
 pub(super) const REAL: [&str; 4] = ["force_dimension", "haply", "serial", "spacemouse"];
@@ -49,14 +49,15 @@ impl Places {
         })
     }
 
-    /// The devices of one of [`REAL`] that are connected.
-    pub(super) fn list(&self, name: &str) -> Result<Vec<Found>, DeviceError> {
-        match name {
-            "force_dimension" => force_dimension::list(&self.force_dimension("", 1000.0)),
-            "haply" => haply::list(&self.haply("")),
+    /// The devices of one of [`REAL`] that are connected, and why there may be more.
+    pub(super) fn list(&self, name: &str) -> Listed {
+        let listed = match name {
+            "force_dimension" => force_dimension::list(&self.force_dimension("", 1000.0)).map(Listed::from),
+            "haply" => haply::list(&self.haply("")).map(Listed::from),
             "serial" => serial::list(&self.serial("")),
-            _ => spacemouse::list(&spacemouse("")),
-        }
+            _ => spacemouse::list(&spacemouse("")).map(Listed::from),
+        };
+        listed.unwrap_or_else(|problem| Listed { found: Vec::new(), problems: vec![problem] })
     }
 
     /// What a backend that found nothing can say all the same: where it looked.

@@ -9,7 +9,7 @@ use std::time::Duration;
 use anyhow::{Context, bail};
 use clap::Args;
 use devices::check::{self, Finding, LARGEST_FORCE_N, Settings};
-use devices::{Device, DeviceError, Scheduling};
+use devices::{Device, DeviceError, Listed, Scheduling};
 
 use super::backends::{Places, REAL, rate, seconds, told};
 use super::report::{Identity, Line, Report};
@@ -97,25 +97,18 @@ impl Check {
     fn only_one(&self) -> anyhow::Result<Chosen> {
         let (mut names, mut problems) = (Vec::new(), Vec::new());
         for backend in REAL {
-            match self.places.list(backend) {
-                Ok(found) => {
-                    let meant = |serial: &str| self.serial.as_deref().is_none_or(|wanted| wanted == serial);
-                    let found: Vec<_> = found.into_iter().filter(|found| meant(&found.serial)).collect();
-                    if found.is_empty() {
-                        let looked = format!("{backend}: {}", self.places.looked(backend));
-                        problems.push(Finding::failure(
-                            "connected",
-                            looked,
-                            "connect a device and switch it on",
-                        ));
-                    }
-                    names.extend(found.into_iter().map(|found| (backend.to_owned(), found.serial)));
-                }
-                Err(error) => {
-                    let (found, remedy) = told(&error, backend);
-                    problems.push(Finding::failure("connected", format!("{backend}: {found}"), remedy));
-                }
+            let Listed { found, problems: barred } = self.places.list(backend);
+            for error in &barred {
+                let (found, remedy) = told(error, backend);
+                problems.push(Finding::failure("connected", format!("{backend}: {found}"), remedy));
             }
+            let meant = |serial: &str| self.serial.as_deref().is_none_or(|wanted| wanted == serial);
+            let found: Vec<_> = found.into_iter().filter(|found| meant(&found.serial)).collect();
+            if found.is_empty() && barred.is_empty() {
+                let looked = format!("{backend}: {}", self.places.looked(backend));
+                problems.push(Finding::failure("connected", looked, "connect a device and switch it on"));
+            }
+            names.extend(found.into_iter().map(|found| (backend.to_owned(), found.serial)));
         }
         match names.as_slice() {
             [] => Ok(Chosen::Nothing(problems)),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
+use devices::Listed;
 use serde::Serialize;
 
 use super::access::{self, DeviceFile, RULES_REMEDY};
@@ -37,8 +38,13 @@ struct Listing {
 struct Answer {
     backend: &'static str,
     devices: Vec<Connected>,
-    /// Why it could not be asked, or where it looked; null when it found something.
-    problem: Option<String>,
+    /// What could not be asked; where it looked, when there is nothing else to say.
+    problems: Vec<Problem>,
+}
+
+#[derive(Serialize)]
+struct Problem {
+    problem: String,
     remedy: Option<String>,
 }
 
@@ -81,41 +87,44 @@ impl Listing {
 
 impl Answer {
     fn of(backend: &'static str, places: &Places) -> Answer {
-        let (devices, problem, remedy) = match places.list(backend) {
-            Ok(found) if found.is_empty() => (Vec::new(), Some(places.looked(backend)), None),
-            Ok(found) => {
-                let connected = found.into_iter().map(|found| Connected {
-                    name: if found.serial.is_empty() {
-                        backend.to_owned()
-                    } else {
-                        format!("{backend}:{}", found.serial)
-                    },
-                    serial: found.serial,
-                    what: found.what,
-                });
-                (connected.collect(), None, None)
-            }
-            Err(error) => {
-                let (problem, remedy) = told(&error, backend);
-                (Vec::new(), Some(problem), Some(remedy).filter(|remedy| !remedy.is_empty()))
-            }
-        };
-        Answer { backend, devices, problem, remedy }
+        let Listed { found, problems } = places.list(backend);
+        let connected = found.into_iter().map(|found| Connected {
+            name: if found.serial.is_empty() {
+                backend.to_owned()
+            } else {
+                format!("{backend}:{}", found.serial)
+            },
+            serial: found.serial,
+            what: found.what,
+        });
+        let devices: Vec<_> = connected.collect();
+        let mut problems: Vec<_> = problems
+            .iter()
+            .map(|error| {
+                let (problem, remedy) = told(error, backend);
+                Problem { problem, remedy: Some(remedy).filter(|remedy| !remedy.is_empty()) }
+            })
+            .collect();
+        if devices.is_empty() && problems.is_empty() {
+            problems.push(Problem { problem: places.looked(backend), remedy: None });
+        }
+        Answer { backend, devices, problems }
     }
 }
 
 impl std::fmt::Display for Listing {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut text = String::new();
-        for Answer { backend, devices, problem, remedy } in &self.backends {
+        for Answer { backend, devices, problems } in &self.backends {
             for connected in devices {
                 writeln!(text, "{:<28}{}", connected.name, connected.what)?;
             }
-            if let Some(problem) = problem {
-                writeln!(text, "{backend:<28}none: {problem}")?;
-            }
-            if let Some(remedy) = remedy {
-                writeln!(text, "{:<28}-> {remedy}", "")?;
+            let how = if devices.is_empty() { "none" } else { "not usable" };
+            for Problem { problem, remedy } in problems {
+                writeln!(text, "{backend:<28}{how}: {problem}")?;
+                if let Some(remedy) = remedy {
+                    writeln!(text, "{:<28}-> {remedy}", "")?;
+                }
             }
         }
         writeln!(text, "{SIMULATED:<28}built in, no hardware needed: a scripted hand")?;

@@ -99,15 +99,14 @@ impl Health {
         ];
         for (topic, publishers) in model {
             graph.counts.insert(topic, publishers.len());
-            graph.nodes.extend(publishers);
+            graph.nodes.extend(publishers.into_iter().map(|publisher| publisher.node));
         }
         for device in &self.devices {
             let contacts = kit.publishers_of(&topics::CONTACT_STATE, &device.name)?;
             let poses = kit.publishers_of(&topics::MEASURED_CP, &device.name)?;
             graph.contacts.push(contacts.len());
             graph.poses.push(poses.len());
-            graph.nodes.extend(contacts);
-            graph.nodes.extend(poses);
+            graph.nodes.extend(contacts.into_iter().chain(poses).map(|publisher| publisher.node));
         }
         graph.nodes.insert(kit.full_name().to_owned());
         self.graph = graph;

@@ -229,7 +229,7 @@ fn say(grasp: Option<&Publisher<Bool>>, grasps: bool) -> Result<(), PublishError
 fn refusal(kit: &NodeKit, device: &str) -> Result<Option<String>, r2r::Error> {
     let others = kit.publishers_of(&topics::POINTER_TARGET, device)?;
     Ok(match others.first() {
-        Some(other) => Some(format!("{other} already moves it")),
+        Some(other) => Some(format!("{} already moves it", other.node)),
         // Known to the graph though nobody publishes it: somebody listens.
         None if kit.is_in_graph(&topics::POINTER_TARGET, device)? => None,
         None => Some("no device listens to pointer_target; device.backend: pointer does".to_owned()),
