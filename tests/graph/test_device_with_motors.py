@@ -2,6 +2,7 @@
 
 import signal
 import subprocess
+import time
 
 import pytest
 import rclpy
@@ -147,3 +148,14 @@ def test_no_device_at_the_start_is_one_clear_error(start, double, tmp_path):
     assert driver.process.wait(graph.TIMEOUT_S) == 1
     errors = [line for line in driver.log().splitlines() if "ERROR" in line]
     assert len(errors) == 1 and str(tmp_path / "nothing") in errors[0], driver.log()
+
+
+def test_a_driver_that_is_ended_while_it_waits_for_readers_never_switches_the_motors_on(start, double):
+    driver = start(**{"device.wait_for_readers": 3})
+    deadline = time.monotonic() + 20.0
+    while "readers of measured_cp are there" not in driver.log():
+        assert time.monotonic() < deadline, driver.log()
+        time.sleep(0.05)
+    assert driver.interrupt()[0] == 0, driver.log()
+    assert "ready:" not in driver.log()
+    assert "enable" not in {event for event, *_ in double.events()}

@@ -89,9 +89,13 @@ static inline bool rhombus_obey(rhombus_device *device, rhombus_command command,
         rhombus_bad_frame(device);
         return false;
     }
-    if (device->commanded)
-        device->lost_commands =
-            (uint8_t)(device->lost_commands + (uint16_t)(command.sequence - device->command.sequence - 1u));
+    if (device->commanded) {
+        uint16_t ahead = (uint16_t)(command.sequence - device->command.sequence);
+        /* A line that says something twice says nothing new, and the host may be gone. */
+        if (ahead == 0 || ahead >= 0x8000u)
+            return false;
+        device->lost_commands = (uint8_t)(device->lost_commands + ahead - 1u);
+    }
     device->commanded = true;
     device->command_us = now_us;
     device->command = command;
@@ -120,10 +124,11 @@ static inline rhombus_action rhombus_device_receive(rhombus_device *device, uint
         return RHOMBUS_GO_ON;
     case RHOMBUS_FRAME:
         if (rhombus_read_hello_request(payload, length, &request)) {
-            /* Somebody new: motors off, whoever had them. */
+            /* Somebody new: motors off, whoever had them. What is latched stays latched. */
             device->greeted = true;
-            device->motors_on = device->latched = device->commanded = false;
-            device->cause = RHOMBUS_CAUSE_NONE;
+            device->motors_on = device->commanded = false;
+            if (!device->latched)
+                device->cause = RHOMBUS_CAUSE_NONE;
             rhombus_no_force(&device->command);
             return RHOMBUS_SEND_HELLO;
         }

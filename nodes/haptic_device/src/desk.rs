@@ -189,9 +189,10 @@ impl Desk {
             return Ok(false);
         }
         let was = before.map(|before| before.operating);
-        match (was == Some(status.operating), status.operating, status.fault) {
-            (_, OperatingState::Fault, Some(cause)) => kit.log().error(&format!("FAULT: {cause}")),
-            (false, state, _) => kit.log().info(&format!("operating state {state}")),
+        match (status.operating, status.fault) {
+            _ if before.is_some_and(|it| (it.operating, it.fault) == (status.operating, status.fault)) => {}
+            (OperatingState::Fault, Some(cause)) => kit.log().error(&format!("FAULT: {cause}")),
+            (state, _) if was != Some(state) => kit.log().info(&format!("operating state {state}")),
             _ => {}
         }
         if let Some(was) = was

@@ -81,7 +81,7 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
     let publisher = PublisherThread::start(outbox, receiver, shared.exchange.clone(), kit.log().clone())
         .context("the publisher thread did not start")?;
     // A stop that was pressed before this driver came counts as well.
-    let is_stopped = emergency_stop.hear(kit);
+    let is_stopped = emergency_stop.was_pressed_before(kit)?;
     settings.enable_at_start &= !is_stopped;
     let motor = start_motor(device, backend, settings, sender)?;
     motor.set_emergency_stop(is_stopped);
@@ -152,7 +152,7 @@ impl Driver {
             }
         }
         self.motor.beat();
-        self.emergency_stop.take(kit, &self.motor);
+        self.emergency_stop.take(kit, &self.motor)?;
         #[cfg(feature = "pointer")]
         if let Some(pointer) = &mut self.pointer {
             pointer.take(kit);

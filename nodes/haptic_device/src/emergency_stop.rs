@@ -10,6 +10,10 @@ use crate::sources::names;
 
 /// Between two looks at who publishes.
 const LOOK: Duration = Duration::from_secs(1);
+/// How long what was said before the driver came is waited for, where somebody keeps it.
+const KEPT: Duration = Duration::from_millis(300);
+/// Longest wait for a message on the way there.
+const TURN: Duration = Duration::from_millis(10);
 
 /// Every topic that can stop this device. Any of them presses; each releases only what it has pressed.
 pub(crate) struct EmergencyStop {
@@ -20,8 +24,10 @@ pub(crate) struct EmergencyStop {
 struct StopTopic {
     /// The namespace, as [`topics::Topic::name_in`] takes it.
     namespace: String,
-    /// Those who publish for whoever is there, and those who keep their last word for whoever comes later.
-    inboxes: [Inbox<Bool>; 2],
+    inbox: Inbox<Bool>,
+    /// What was said before this driver came; only where a publisher keeps it, because one that does not would warn of a
+    /// reader that it cannot serve.
+    kept: Option<Inbox<Bool>>,
     is_pressed: bool,
     publishers: Vec<RemotePublisher>,
 }
@@ -36,10 +42,8 @@ impl EmergencyStop {
         }
         let topics = namespaces.into_iter().map(|namespace| {
             Ok(StopTopic {
-                inboxes: [
-                    kit.subscribe(&topics::EMERGENCY_STOP, &namespace)?,
-                    kit.subscribe_kept(&topics::EMERGENCY_STOP, &namespace)?,
-                ],
+                inbox: kit.subscribe(&topics::EMERGENCY_STOP, &namespace)?,
+                kept: None,
                 namespace,
                 is_pressed: false,
                 publishers: Vec::new(),
@@ -48,27 +52,51 @@ impl EmergencyStop {
         Ok(EmergencyStop { topics: topics.collect::<Result<_, StartError>>()?, looked: None })
     }
 
-    /// Hears what was said since the last time. True when somebody pressed it, however short.
-    pub(crate) fn hear(&mut self, kit: &NodeKit) -> bool {
+    /// Before motors go on: true when it was pressed already.
+    ///
+    /// # Errors
+    /// rcl refuses a subscription.
+    pub(crate) fn was_pressed_before(&mut self, kit: &mut NodeKit) -> Result<bool, StartError> {
+        let mut was_pressed = self.hear(kit)?;
+        let deadline = Instant::now() + KEPT;
+        while !was_pressed
+            && self.topics.iter().any(|topic| topic.kept.is_some())
+            && Instant::now() < deadline
+        {
+            kit.spin_once(TURN);
+            was_pressed = self.hear(kit)?;
+        }
+        Ok(was_pressed)
+    }
+
+    /// Hears what was said since the last time. To be called before anything else is looked at.
+    ///
+    /// # Errors
+    /// rcl refuses a subscription.
+    pub(crate) fn take(&mut self, kit: &mut NodeKit, motor: &MotorLoop) -> Result<(), StartError> {
+        if self.hear(kit)? {
+            motor.set_emergency_stop(true);
+        }
+        if !self.is_pressed() {
+            motor.set_emergency_stop(false);
+        }
+        Ok(())
+    }
+
+    /// True when somebody pressed it, however short.
+    fn hear(&mut self, kit: &mut NodeKit) -> Result<bool, StartError> {
         let mut was_pressed = false;
         for topic in &mut self.topics {
             was_pressed |= topic.hear(kit);
         }
         if self.looked.is_none_or(|looked| looked.elapsed() >= LOOK) {
             self.looked = Some(Instant::now());
-            self.topics.iter_mut().for_each(|topic| topic.look(kit));
+            for topic in &mut self.topics {
+                topic.look(kit);
+                topic.ask_those_who_keep(kit)?;
+            }
         }
-        was_pressed
-    }
-
-    /// The same, and the motors hear it as well. To be called before anything else is looked at.
-    pub(crate) fn take(&mut self, kit: &NodeKit, motor: &MotorLoop) {
-        if self.hear(kit) {
-            motor.set_emergency_stop(true);
-        }
-        if !self.is_pressed() {
-            motor.set_emergency_stop(false);
-        }
+        Ok(was_pressed)
     }
 
     fn is_pressed(&self) -> bool {
@@ -99,11 +127,9 @@ impl StopTopic {
 
     fn hear(&mut self, kit: &NodeKit) -> bool {
         let mut was_pressed = false;
-        for i in 0..self.inboxes.len() {
-            while let Some(Bool { data }) = self.inboxes[i].take() {
-                was_pressed |= data;
-                self.turn(kit, data);
-            }
+        while let Some(Bool { data }) = self.inbox.take().or_else(|| self.kept.as_mut()?.take()) {
+            was_pressed |= data;
+            self.turn(kit, data);
         }
         was_pressed
     }
@@ -142,6 +168,13 @@ impl StopTopic {
         {
             kit.log().error(&unheard);
         }
+    }
+
+    fn ask_those_who_keep(&mut self, kit: &mut NodeKit) -> Result<(), StartError> {
+        if self.kept.is_none() && self.publishers.iter().any(|publisher| publisher.keeps) {
+            self.kept = Some(kit.subscribe_kept(&topics::EMERGENCY_STOP, &self.namespace)?);
+        }
+        Ok(())
     }
 
     /// A stop whose messages need not arrive.

@@ -328,7 +328,7 @@ impl Forces {
         freshness: &mut Freshness,
         stamp_ns: i64,
     ) -> Option<u64> {
-        match freshness.check(stamp_ns, self.clocks_ns(), &self.backlog) {
+        match freshness.check(stamp_ns, &self.clocks_ns(kit), &self.backlog) {
             Ok(age_ns) => Some(age_ns),
             Err(untimely) => {
                 self.counts.untimely += 1;
@@ -342,14 +342,14 @@ impl Forces {
         self.lines.untimely.warn(kit.log(), || format!("{}: not followed: {untimely}", topic.name()));
     }
 
-    /// What the two clocks show that stamps are taken from: the system's, and the one of the poses.
-    fn clocks_ns(&self) -> [i64; 2] {
+    /// What the clocks show that stamps are taken from: the system's, the one of the poses, and `/clock` if it is in use.
+    fn clocks_ns(&self, kit: &NodeKit) -> [i64; 3] {
         let system_ns = now_ns();
         let poses_ns = lock(&self.shared.exchange).newest.map_or(system_ns, |sample| {
             let since_ns = monotonic_ns().saturating_sub(sample.monotonic_ns);
             sample.stamp_ns.saturating_add_unsigned(since_ns)
         });
-        [system_ns, poses_ns]
+        [system_ns, poses_ns, convert::stamp_ns(&kit.now())]
     }
 
     fn reject<T>(&mut self, kit: &NodeKit, topic: CommandTopic, reason: &str) -> Option<T> {

@@ -85,7 +85,7 @@ impl Freshness {
     pub(crate) fn check(
         &mut self,
         stamp_ns: i64,
-        clocks_ns: [i64; 2],
+        clocks_ns: &[i64],
         backlog: &Backlog,
     ) -> Result<u64, Untimely> {
         if stamp_ns == 0 {
@@ -112,9 +112,9 @@ impl Freshness {
 }
 
 /// The age of a stamp, ns, by the clock that fits best; negative: it is in the future.
-pub(crate) fn age_ns(stamp_ns: i64, clocks_ns: [i64; 2]) -> i64 {
-    let ages_ns = clocks_ns.map(|now_ns| now_ns.saturating_sub(stamp_ns));
-    if ages_ns[0].saturating_abs() <= ages_ns[1].saturating_abs() { ages_ns[0] } else { ages_ns[1] }
+pub(crate) fn age_ns(stamp_ns: i64, clocks_ns: &[i64]) -> i64 {
+    let ages_ns = clocks_ns.iter().map(|now_ns| now_ns.saturating_sub(stamp_ns));
+    ages_ns.min_by_key(|age_ns| age_ns.saturating_abs()).unwrap_or(i64::MAX)
 }
 
 impl fmt::Display for Untimely {
@@ -139,7 +139,7 @@ mod tests {
     const NOW: i64 = 1_700_000_000_000 * MS;
 
     fn check(freshness: &mut Freshness, stamp_ns: i64) -> Result<u64, Untimely> {
-        freshness.check(stamp_ns, [NOW, NOW], &Backlog::new(20 * MS as u64))
+        freshness.check(stamp_ns, &[NOW, NOW], &Backlog::new(20 * MS as u64))
     }
 
     /// A backlog after turns at these times, ms, each of which takes no time.
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn unstamped_commands_that_waited_for_a_node_that_was_away_are_not_followed() {
         let mut freshness = Freshness::new(20 * MS);
-        let mut unstamped = |times_ms: &[f64]| freshness.check(0, [NOW, NOW], &turns_at(times_ms));
+        let mut unstamped = |times_ms: &[f64]| freshness.check(0, &[NOW, NOW], &turns_at(times_ms));
         assert_eq!(unstamped(&[0.0, 1.0, 2.0]), Ok(0));
         assert_eq!(unstamped(&[0.0, 800.0]), Err(Untimely::Backlog));
         assert_eq!(unstamped(&[0.0, 800.0, 800.1, 800.2]), Err(Untimely::Backlog));
@@ -170,10 +170,10 @@ mod tests {
     fn a_clock_that_was_set_back_blocks_nobody_for_longer_than_a_command_lives() {
         let mut freshness = Freshness::new(20 * MS);
         let hour = 3_600_000 * MS;
-        assert_eq!(freshness.check(NOW, [NOW, NOW], &turns_at(&[0.0])), Ok(0));
+        assert_eq!(freshness.check(NOW, &[NOW, NOW], &turns_at(&[0.0])), Ok(0));
         let earlier = NOW - hour;
-        assert_eq!(freshness.check(earlier, [earlier, NOW], &turns_at(&[1.0])), Err(Untimely::Overtaken));
-        assert_eq!(freshness.check(earlier, [earlier, NOW], &turns_at(&[41.0])), Ok(0));
+        assert_eq!(freshness.check(earlier, &[earlier, NOW], &turns_at(&[1.0])), Err(Untimely::Overtaken));
+        assert_eq!(freshness.check(earlier, &[earlier, NOW], &turns_at(&[41.0])), Ok(0));
     }
 
     #[test]
@@ -227,7 +227,7 @@ mod tests {
     fn stamps_may_come_from_the_system_or_from_the_poses() {
         let mut freshness = Freshness::new(20 * MS);
         let hour = 3_600_000 * MS;
-        assert_eq!(freshness.check(NOW + hour, [NOW, NOW + hour], &turns_at(&[])), Ok(0));
-        assert_eq!(Freshness::new(20 * MS).check(NOW, [NOW, NOW + hour], &turns_at(&[])), Ok(0));
+        assert_eq!(freshness.check(NOW + hour, &[NOW, NOW + hour], &turns_at(&[])), Ok(0));
+        assert_eq!(Freshness::new(20 * MS).check(NOW, &[NOW, NOW + hour], &turns_at(&[])), Ok(0));
     }
 }

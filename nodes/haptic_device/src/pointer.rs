@@ -115,7 +115,7 @@ impl Pointer {
     fn target(&mut self, kit: &NodeKit, message: &PoseStamped) -> Option<Target> {
         let stamp_ns = convert::stamp_ns(&message.header.stamp);
         let clocks_ns = [now_ns(), convert::stamp_ns(&kit.now())];
-        let age_ns = if stamp_ns == 0 { 0 } else { age_ns(stamp_ns, clocks_ns).max(0) };
+        let age_ns = if stamp_ns == 0 { 0 } else { age_ns(stamp_ns, &clocks_ns).max(0) };
         let valid_for_s = self.timeout_ns.saturating_sub(age_ns) as f64 * 1e-9;
         let position = convert::pose_array(&message.pose);
         let position = [position[0], position[1], position[2]].into();
@@ -130,7 +130,7 @@ impl Pointer {
         if !self.is_only_source(kit) {
             return None;
         }
-        if let Err(untimely) = self.freshness.check(stamp_ns, clocks_ns, &self.backlog) {
+        if let Err(untimely) = self.freshness.check(stamp_ns, &clocks_ns, &self.backlog) {
             self.counts.untimely += 1;
             self.lines.untimely.warn(kit.log(), || format!("{}: not followed: {untimely}", name()));
             return None;

@@ -141,7 +141,7 @@ mod tests {
     use super::*;
 
     fn publisher(node: &str) -> RemotePublisher {
-        RemotePublisher { node: node.to_owned(), process: [0; 12], is_reliable: true }
+        RemotePublisher { node: node.to_owned(), process: [0; 12], is_reliable: true, keeps: false }
     }
 
     fn sources(seen: &[(CommandTopic, &[&str])]) -> Sources {

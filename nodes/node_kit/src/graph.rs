@@ -1,7 +1,7 @@
 //! Other nodes' publishers, as the middleware knows them.
 
 use r2r::QosProfile;
-use r2r::qos::ReliabilityPolicy;
+use r2r::qos::{DurabilityPolicy, ReliabilityPolicy};
 
 /// Bytes of a DDS GUID that name the participant, which is a process; the rest names the publisher in it.
 const PARTICIPANT: usize = 12;
@@ -15,6 +15,8 @@ pub struct RemotePublisher {
     pub process: [u8; PARTICIPANT],
     /// Whether a reliable subscription gets its messages.
     pub is_reliable: bool,
+    /// Whether it keeps messages for those who come later.
+    pub keeps: bool,
 }
 
 impl RemotePublisher {
@@ -30,6 +32,7 @@ impl RemotePublisher {
             },
             process: gid.first_chunk().filter(|_| is_dds).copied().unwrap_or_default(),
             is_reliable: !matches!(qos.reliability, ReliabilityPolicy::BestEffort),
+            keeps: matches!(qos.durability, DurabilityPolicy::TransientLocal),
         }
     }
 }

@@ -65,9 +65,7 @@ impl Places {
         match (name, &self.port) {
             ("force_dimension", _) => "the SDK finds none".to_owned(),
             ("haply", _) => format!("the service at {} lists none", self.url),
-            ("serial", Some(port)) => {
-                format!("nothing at {port} answers; `rhombus device check serial --port {port}` says why")
-            }
+            ("serial", Some(port)) => format!("nothing at {port} answers"),
             ("serial", None) => "no USB serial port, or none that answers; --port names a port".to_owned(),
             _ => "no HID device of this kind".to_owned(),
         }

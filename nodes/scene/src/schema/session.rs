@@ -46,6 +46,7 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         length: Length::Any,
         live: false,
         owners: &Node::ALL,
-        help: "Take the time from /clock, as every ROS 2 node can.",
+        help: "Stamp log, diagnostics and parameter events from /clock; a driver then follows commands with such stamps, too. \
+               Poses, and all that answers them, keep the time of the device.",
     },
 ];

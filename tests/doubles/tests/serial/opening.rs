@@ -64,7 +64,7 @@ fn one_of_two_is_chosen_by_its_serial_number_and_never_by_chance() {
     let Err(none) = with_serial("THIRD") else { panic!() };
     assert_says(&none.to_string(), &["THIRD", "LEFT at ", "RIGHT at ", "device.serial"]);
 
-    let mut serials: Vec<String> = list(&both).unwrap().into_iter().map(|found| found.serial).collect();
+    let mut serials: Vec<String> = list(&both).unwrap().found.into_iter().map(|found| found.serial).collect();
     serials.sort();
     assert_eq!(serials, ["LEFT", "RIGHT"]);
 }
@@ -85,9 +85,30 @@ fn a_port_that_is_in_use_is_busy_until_it_is_not() {
     let double = Double::start("");
     let first = double.open().unwrap();
     assert!(matches!(double.open(), Err(DeviceError::Busy { .. })));
-    assert!(matches!(list(&double.settings()), Err(DeviceError::Busy { .. })));
+    let listed = list(&double.settings()).unwrap();
+    assert!(
+        listed.found.is_empty() && matches!(listed.problems[..], [DeviceError::Busy { .. }]),
+        "{listed:?}"
+    );
     drop(first);
     assert!(double.open().is_ok());
+}
+
+#[test]
+fn a_device_that_is_found_does_not_hide_ports_that_are_in_use_or_answer_garbage() {
+    let (free, used) = (Double::start("--serial FREE"), Double::start("--serial USED"));
+    let garbage = Double::start("--fault garbage");
+    for (name, other) in [("used", &used), ("garbage", &garbage)] {
+        std::os::unix::fs::symlink(other.port(), free.ports().join(name)).unwrap();
+    }
+    let _used = used.open().unwrap();
+    let listed = list(&settings(&free.ports())).unwrap();
+    let [found] = &listed.found[..] else { panic!("{listed:?}") };
+    assert_eq!(found.serial, "FREE");
+    let said: Vec<String> = listed.problems.iter().map(ToString::to_string).collect();
+    assert_eq!(said.len(), 2, "{said:?}");
+    assert!(said.iter().any(|text| text.contains("in use")), "{said:?}");
+    assert!(said.iter().any(|text| text.contains("garbage")), "{said:?}");
 }
 
 #[test]

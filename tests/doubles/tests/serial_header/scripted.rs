@@ -54,6 +54,9 @@ fn a_device_by_the_header_takes_the_force_away_after_20_ms_and_wants_to_be_asked
         .off_at(at(25_000))
         .at(at(26_000), &push(4, 1, 5.0))
         .at(at(27_000), &hello)
+        .at(at(28_000), &push(5, 1, 5.0))
+        .at(at(29_000), &push(6, 0, 0.0))
+        .at(at(30_000), &push(7, 1, 5.0))
         .run();
     let [off, command, watchdog, dead_man] = [0.0, 1.0, 2.0, 5.0];
     assert_eq!(
@@ -68,9 +71,30 @@ fn a_device_by_the_header_takes_the_force_away_after_20_ms_and_wants_to_be_asked
             [1.0, off, 1.0, 0.0, 5.0, 2.0],
             [0.0, dead_man, 1.0, 0.0, 0.0, 0.0],
             [0.0, dead_man, 1.0, 0.0, 0.0, 2.0],
-            [0.0, off, 0.0, 0.0, 0.0, 1.0],
+            // Whoever says hello has not said that the motors are to be off.
+            [0.0, dead_man, 0.0, 0.0, 0.0, 1.0],
+            [0.0, dead_man, 1.0, 0.0, 0.0, 2.0],
+            [0.0, command, 1.0, 0.0, 0.0, 2.0],
+            [1.0, off, 1.0, 0.0, 5.0, 2.0],
         ]
     );
+}
+
+#[test]
+fn a_device_by_the_header_is_not_kept_pushing_by_a_line_that_repeats_itself() {
+    let [newest, older] = [push(7, 1, 5.0), push(6, 1, 5.0)];
+    let said = Scripted(Vec::new())
+        .at(0, &newest)
+        .at(10_000, &newest)
+        .at(19_999, &older)
+        .nothing_at(20_000)
+        .at(21_000, &push(8, 0, 0.0))
+        .at(22_000, &push(0x8000 + 8, 1, 5.0))
+        .at(23_000, &push(0x8000 + 7, 1, 5.0))
+        .run();
+    let motors: Vec<f64> = said.iter().map(|said| said[0]).collect();
+    assert_eq!(motors, [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+    assert!(said.iter().take(5).all(|said| said[3] == 0.0), "and nothing of it was lost");
 }
 
 #[test]

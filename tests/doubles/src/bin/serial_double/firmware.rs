@@ -130,8 +130,8 @@ impl Firmware {
                 if self.motors.are_on() {
                     self.motors.off(now_ns, Event::Off)?;
                 }
-                (self.greeted, self.command, self.latched) = (true, None, None);
-                self.cause = Cause::None;
+                (self.greeted, self.command) = (true, None);
+                self.cause = self.latched.unwrap_or(Cause::None);
                 if self.fault != Fault::NoHello {
                     line.send(self.fault.spoil_frame(self.hello.frame().bytes()))?;
                 }
@@ -160,7 +160,11 @@ impl Firmware {
 
     fn take(&mut self, command: Command, wanted: Wrench, now_ns: u64) -> io::Result<()> {
         if let Some((last, _)) = &self.command {
-            let gap = command.sequence.wrapping_sub(last.sequence).wrapping_sub(1);
+            let ahead = command.sequence.wrapping_sub(last.sequence);
+            if ahead.cast_signed() <= 0 {
+                return Ok(());
+            }
+            let gap = ahead - 1;
             self.lost_commands = self.lost_commands.wrapping_add(gap as u8);
             self.motors.missed(u64::from(gap));
         }
