@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 use crate::metadata::Metadata;
+use crate::parts::{Series, holes, part, plain};
 use crate::storage::{COMPRESSED, MCAP, SQLITE};
 
 /// What is to be opened.
@@ -14,8 +15,12 @@ pub(crate) struct Directory {
     /// In the order of the recording, missing ones included.
     pub(crate) files: Vec<PathBuf>,
     pub(crate) metadata: Option<Metadata>,
-    /// What `metadata.yaml` says other than the directory.
+    /// What `metadata.yaml` says other than the directory, and parts that nothing names and that must have been there.
     pub(crate) disagreements: Vec<String>,
+    /// `metadata.yaml` is older than the last parts, whose messages it does not count.
+    pub(crate) has_unlisted_parts: bool,
+    /// The numbers of the parts have holes, and nothing says what was in the missing ones.
+    pub(crate) has_missing_parts: bool,
 }
 
 impl Directory {
@@ -47,20 +52,29 @@ impl Directory {
             }
         }
         let is_listed = !directory.files.is_empty();
+        let listed: BTreeSet<Series> = directory.files.iter().map(|file| part(file).0).collect();
         // A recorder that is killed has not named its last files yet.
         for file in present.into_iter().filter(|file| unlisted.contains(file)) {
             // Of a file that lies there compressed and not, one is enough; and a converted copy is no part.
-            let is_part = directory.files.iter().any(|listed| series(listed) == series(&file));
-            if directory.files.contains(&other_form(&file)) || (is_listed && !is_part) {
+            let is_part = !is_listed || listed.contains(&part(&file).0);
+            if taken.contains(&other_form(&file)) || !is_part {
                 continue;
             }
             if is_listed {
+                directory.has_unlisted_parts = true;
                 let name = file.file_name().unwrap_or_default().display();
                 directory
                     .disagreements
                     .push(format!("metadata.yaml does not name {name}, which is read too"));
             }
+            taken.insert(file.clone());
             directory.files.push(file);
+        }
+        if !is_listed || directory.has_unlisted_parts {
+            // A recorder that keeps the newest parts deletes the first ones, and its metadata does not name them.
+            let holes = holes(&directory.files, (!is_listed).then_some(0));
+            directory.has_missing_parts = !holes.is_empty();
+            directory.disagreements.extend(holes);
         }
         if directory.files.is_empty() {
             let reason = "the directory has neither .mcap nor .db3 files".to_owned();
@@ -81,27 +95,19 @@ fn other_form(file: &Path) -> PathBuf {
     name.into()
 }
 
-/// What the parts of a recording have in common: the name up to the number, and the storage.
-fn series(file: &Path) -> (String, Option<OsString>) {
-    let compressed = file.extension().is_some_and(|extension| extension == COMPRESSED);
-    let plain = if compressed { file.with_extension("") } else { file.to_owned() };
-    let name = plain.file_stem().unwrap_or_default().to_string_lossy();
-    let name = name.trim_end_matches(|letter: char| letter.is_ascii_digit()).to_owned();
-    (name, plain.extension().map(OsString::from))
-}
-
 /// The files of a directory that may be parts of a recording, in the order of their numbers.
 fn recorded_files_in(directory: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(directory).map_err(Error::io(directory, "read"))? {
         let file = entry.map_err(Error::io(directory, "read"))?.path();
-        let compressed = file.extension().is_some_and(|extension| extension == COMPRESSED);
-        let plain = if compressed { file.with_extension("") } else { file.clone() };
-        if plain.extension().is_some_and(|extension| extension == MCAP || extension == SQLITE) {
+        if plain(&file).extension().is_some_and(|extension| extension == MCAP || extension == SQLITE) {
             files.push(file);
         }
     }
-    // NAME_10 comes behind NAME_9: shorter names first.
-    files.sort_by_key(|file| (file.as_os_str().len(), file.clone()));
+    // NAME_10 comes behind NAME_9, compressed or not: shorter names first.
+    files.sort_by_cached_key(|file| {
+        let plain = plain(file);
+        (plain.as_os_str().len(), plain, file.clone())
+    });
     Ok(files)
 }

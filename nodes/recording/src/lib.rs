@@ -24,6 +24,7 @@ mod index;
 pub mod messages;
 mod metadata;
 mod order;
+mod parts;
 mod playback;
 mod qos;
 mod reader;

@@ -25,6 +25,9 @@ pub struct Recording {
     disagreements: Vec<String>,
     /// Files whose recorder did not say how many messages they have.
     uncounted: usize,
+    /// Of a directory; see [`Directory`].
+    has_unlisted_parts: bool,
+    has_missing_parts: bool,
 }
 
 /// A recorded message.
@@ -78,6 +81,8 @@ impl Recording {
             damage: Vec::new(),
             disagreements: directory.disagreements,
             uncounted: 0,
+            has_unlisted_parts: directory.has_unlisted_parts,
+            has_missing_parts: directory.has_missing_parts,
         };
         let mut variants = Variants::default();
         for file_path in directory.files {
@@ -112,12 +117,23 @@ impl Recording {
         self.uncounted == 0 && self.path.is_file()
     }
 
+    /// Whether `metadata.yaml` is older than the last parts and does not count what is in them.
+    pub(crate) fn has_unlisted_parts(&self) -> bool {
+        self.has_unlisted_parts
+    }
+
+    /// Whether the numbers of the parts have holes, so that nobody knows how many messages there were.
+    pub(crate) fn has_missing_parts(&self) -> bool {
+        self.has_missing_parts
+    }
+
     /// What was found broken on opening and is left out of everything else. Empty for a whole recording.
     pub fn damage(&self) -> &[Error] {
         &self.damage
     }
 
-    /// What `metadata.yaml` says other than the files, a sentence each.
+    /// What `metadata.yaml` says other than the files, and holes in the numbers of parts that it does not name, a sentence
+    /// each.
     pub fn metadata_disagreements(&self) -> &[String] {
         &self.disagreements
     }

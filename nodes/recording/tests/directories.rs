@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 
 use common::mcap_files::*;
 use common::*;
+use recording::check::check;
+use recording::repair::{Repaired, default_output, repair};
 use recording::{Durability, Recording};
 
 const QOS_NUMBERS: &str = "- history: 1\\n  depth: 5\\n  reliability: 1\\n  durability: 1\\n  deadline:\\n    sec: 0\\n    nsec: 0\\n  \
@@ -308,4 +310,69 @@ fn a_topic_with_two_definitions_is_two_topics_and_one_with_other_comments_is_one
     let commented = described(&format!("# Where the handle is.\n{text}"), "cdr");
     let one = with("comments", &[described(text, "cdr"), commented, described("", "cdr")]);
     assert_eq!(counts(&one), [30]);
+}
+
+/// What a repair says of the recording at `path`.
+fn repaired(path: &Path) -> Repaired {
+    repair(path, &default_output(path), &|| true).unwrap()
+}
+
+#[test]
+fn a_hole_in_the_numbers_of_the_parts_is_a_disagreement_and_nobody_knows_what_was_in_it() {
+    let part = |number: u64| file(PLAIN, 10 * number..10 * number + 10, 5);
+    let parts = |numbers: &[u64]| {
+        let files: Vec<_> =
+            numbers.iter().map(|number| (format!("session_{number}.mcap"), part(*number))).collect();
+        directory(&files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect::<Vec<_>>())
+    };
+    for (numbers, told) in [
+        (&[0, 1, 3][..], "session_2.mcap is not there, and session_3.mcap is"),
+        (&[1, 2], "session_0.mcap is not there, and session_1.mcap is"),
+        (&[0, 9, 10], "session_1.mcap to session_8.mcap are not there, and session_9.mcap is"),
+    ] {
+        let (_guard, path) = parts(numbers);
+        let (messages, damage, disagreements) = found(&path);
+        assert_eq!((messages.len(), damage.len()), (10 * numbers.len(), 0));
+        assert!(disagreements.len() == 1 && disagreements[0].contains(told), "{disagreements:?}");
+        assert!(check(&path).problems.iter().any(|problem| problem.contains(told)));
+        let repaired = repaired(&path);
+        assert_eq!((repaired.saved, repaired.all_saved), (10 * numbers.len() as u64, false), "{repaired:?}");
+        assert_eq!(repaired.topics[0].lost, None);
+    }
+    let (_guard, path) = parts(&[0, 1, 2]);
+    assert_eq!(found(&path), ((0..30).collect(), vec![], vec![]));
+    assert!(repaired(&path).all_saved);
+}
+
+#[test]
+fn a_hole_before_a_part_that_metadata_does_not_name_yet_is_a_disagreement_and_its_counts_are_not_all() {
+    let text = metadata(9, 100, &["session_5.mcap"]);
+    let (first, later) = (file(PLAIN, 0..100, 50), file(PLAIN, 300..400, 50));
+    let (_guard, path) = directory(&[
+        // The parts before were deleted by a recorder that keeps the newest ones.
+        ("session_5.mcap", &first),
+        ("session_7.mcap", &later),
+        ("metadata.yaml", text.as_bytes()),
+    ]);
+    let (_, _, disagreements) = found(&path);
+    let told = disagreements.join("\n");
+    assert!(told.contains("session_6.mcap is not there") && !told.contains("session_4"), "{told}");
+    assert!(!repaired(&path).all_saved);
+
+    // Without the hole: what is broken in a part that metadata does not count yet may have held anything.
+    let cut = &later[..later.len() * 3 / 4];
+    let (_guard, path) =
+        directory(&[("session_5.mcap", &first), ("session_6.mcap", cut), ("metadata.yaml", text.as_bytes())]);
+    let repaired = repaired(&path);
+    assert!(repaired.saved > 100 && !repaired.all_saved, "{repaired:?}");
+}
+
+#[test]
+fn parts_are_read_in_the_order_of_their_numbers_though_some_are_compressed() {
+    let compressed = zstd::bulk::compress(&file(PLAIN, 0..50, 10), 3).unwrap();
+    let (_guard, path) =
+        directory(&[("session_0.mcap.zstd", &compressed), ("session_1.mcap", &file(PLAIN, 0..60, 10))]);
+    let recording = Recording::open(&path).unwrap();
+    let stored: Vec<_> = recording.stored_messages().map(|message| message.unwrap()).collect();
+    assert_eq!(numbers(&stored), (0..50).chain(0..60).collect::<Vec<_>>());
 }

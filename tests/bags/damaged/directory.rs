@@ -59,6 +59,13 @@ pub fn cases() -> Vec<Case> {
             vec![(PathBuf::from("session_0.mcap"), bytes.clone())],
         ),
         directory(
+            "a_part_is_missing",
+            Damaged,
+            &["session_1.mcap is not there"],
+            2 * whole::MESSAGES,
+            ["session_0.mcap", "session_2.mcap"].map(|name| (PathBuf::from(name), bytes.clone())).to_vec(),
+        ),
+        directory(
             "metadata_only",
             Unreadable,
             &["session_0.mcap"],

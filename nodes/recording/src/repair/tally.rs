@@ -11,7 +11,7 @@ pub(super) struct Tally<'a> {
     recording: &'a Recording,
     topics: Vec<Counts>,
     saved: u64,
-    /// `metadata.yaml` says how many messages there were.
+    /// `metadata.yaml` says how many messages there were altogether.
     announced: bool,
     /// There are places that cannot be read and may have held messages.
     unreadable: bool,
@@ -35,7 +35,8 @@ impl<'a> Tally<'a> {
             let announced = counted.of(&found.topic);
             Counts { recorded: found.message_count.max(announced), saved: 0, checksum: 0 }
         });
-        let announced = metadata.is_some_and(|metadata| metadata.message_count > 0);
+        let counts_all = !recording.has_unlisted_parts();
+        let announced = metadata.is_some_and(|metadata| metadata.message_count > 0) && counts_all;
         let mut tally = Self {
             recording,
             topics: counts.collect(),
@@ -79,12 +80,14 @@ impl<'a> Tally<'a> {
 
     /// Whether nothing is missing and nothing could be missing or be another thing than what was recorded.
     pub(super) fn all_saved(&self) -> bool {
-        self.lost() == 0 && !self.altered && (self.announced || !self.unreadable)
+        let nothing_missing = self.lost() == 0 && !self.recording.has_missing_parts();
+        nothing_missing && !self.altered && (self.announced || !self.unreadable)
     }
 
     pub(super) fn topics(&self) -> Vec<SavedTopic> {
         // A count above what was saved can only be one that the recording stored.
         let known = self.announced || !self.unreadable || self.lost() > 0 || self.recording.is_counted();
+        let known = known && !self.recording.has_missing_parts();
         let names = self.recording.topics().iter().zip(&self.topics);
         let saved = names.map(|(found, counts)| SavedTopic {
             name: found.topic.name.clone(),

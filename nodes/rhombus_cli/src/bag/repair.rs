@@ -70,6 +70,9 @@ fn said(repaired: &Repaired) -> Result<String, std::fmt::Error> {
     let lost = match (repaired.all_saved, repaired.lost) {
         (true, _) => "nothing lost".to_owned(),
         (false, 0) => "how many are lost, or are not as they were recorded, is not known".to_owned(),
+        (false, lost) if repaired.topics.iter().any(|topic| topic.lost.is_none()) => {
+            format!("at least {lost} lost")
+        }
         (false, lost) => format!("{lost} lost"),
     };
     writeln!(text, "{output}: whole: {saved} saved, {lost}")?;
