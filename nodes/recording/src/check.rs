@@ -39,7 +39,7 @@ pub enum Verdict {
     Whole,
     /// Some of it is.
     Damaged,
-    /// Nothing of it is.
+    /// Nothing of it is, or it is several recordings and not one.
     Unreadable,
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 use crate::metadata::Metadata;
-use crate::parts::{Series, holes, part, plain};
+use crate::parts::{Series, holes, part, plain, several};
 use crate::storage::{COMPRESSED, MCAP, SQLITE};
 
 /// What is to be opened.
@@ -24,7 +24,8 @@ pub(crate) struct Directory {
 }
 
 impl Directory {
-    /// A directory, or one file of a recording.
+    /// A directory, or one file of a recording. Without metadata that names its files a directory is one recording only if
+    /// they are the parts of one: otherwise the messages of several would be taken as those of one session.
     pub(crate) fn of(path: &Path) -> Result<Self, Error> {
         if !path.is_dir() {
             return Ok(Self { files: vec![path.to_owned()], ..Self::default() });
@@ -69,6 +70,9 @@ impl Directory {
             }
             taken.insert(file.clone());
             directory.files.push(file);
+        }
+        if !is_listed && let Some(found) = several(&directory.files) {
+            return Err(Error::SeveralRecordings { path: path.to_owned(), found });
         }
         if !is_listed || directory.has_unlisted_parts {
             // A recorder that keeps the newest parts deletes the first ones, and its metadata does not name them.

@@ -30,6 +30,14 @@ pub enum Error {
         /// What was found instead.
         reason: String,
     },
+    /// A directory of several recordings, of which nothing says which files are one.
+    #[error("{}: holds several recordings and no metadata.yaml that says which files are one: {found}; name one file", path.display())]
+    SeveralRecordings {
+        /// The directory.
+        path: PathBuf,
+        /// What is in it, in words.
+        found: String,
+    },
     /// A recording that another program reads, but this version does not.
     #[error("{}: {what} is not read by this version; `ros2 bag convert` to uncompressed MCAP helps", path.display())]
     Unsupported {

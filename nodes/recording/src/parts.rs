@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 
 use crate::storage::COMPRESSED;
 
+/// Recordings that an error names; it counts the others.
+const MOST_NAMED: usize = 10;
+
 /// What the parts of one recording have in common: the name up to the number, and the storage.
 pub(crate) type Series = (Vec<u8>, Option<OsString>);
 
@@ -34,6 +37,27 @@ fn number(digits: &[u8]) -> Option<u64> {
     let has_zeros_in_front = digits.len() > 1 && digits.first() == Some(&b'0');
     let is_number = digits.iter().all(u8::is_ascii_digit) && !has_zeros_in_front;
     std::str::from_utf8(digits).ok().filter(|_| is_number)?.parse().ok()
+}
+
+/// The series that are among `files`, each by its first and last file; `None` where there are not several.
+pub(crate) fn several(files: &[PathBuf]) -> Option<String> {
+    let mut found: BTreeMap<Series, (&PathBuf, &PathBuf)> = BTreeMap::new();
+    for file in files {
+        found.entry(part(file).0).or_insert((file, file)).1 = file;
+    }
+    let name = |file: &Path| file.file_name().unwrap_or_default().display().to_string();
+    let mut said: Vec<_> = found
+        .values()
+        .take(MOST_NAMED)
+        .map(|(first, last)| match first == last {
+            true => name(first),
+            false => format!("{} to {}", name(first), name(last)),
+        })
+        .collect();
+    if let Some(more) = found.len().checked_sub(MOST_NAMED).filter(|more| *more > 0) {
+        said.push(format!("and {more} more"));
+    }
+    (found.len() > 1).then(|| said.join("; "))
 }
 
 /// The parts that are missing between `files` of one series, a sentence for each hole. The series begins with `first`, or

@@ -67,7 +67,7 @@ impl Recording {
     /// Where `metadata.yaml` and the files disagree, the files are right; see [`Recording::metadata_disagreements`].
     ///
     /// # Errors
-    /// When nothing can be read from it. A recording that is cut or partly broken opens; [`Recording::damage`] says what is
+    /// When nothing can be read from it, or it is a directory of several recordings without metadata. A recording that is cut or partly broken opens; [`Recording::damage`] says what is
     /// missing.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();

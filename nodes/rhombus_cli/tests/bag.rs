@@ -181,6 +181,24 @@ fn info_says_rates_gaps_stamps_qos_and_types() {
     assert_eq!(topic["messages"], 1000);
     assert_eq!(topic["mean_rate_hz"], 1000.0);
     assert_eq!(topic["median_ns"], 1_000_000);
+/// Such as a directory with everything that was recorded on a day.
+#[test]
+fn a_directory_of_several_recordings_without_metadata_is_refused_and_names_them() {
+    let folder = with_session();
+    std::fs::create_dir(folder.path("day")).expect("made");
+    for name in ["left_0.mcap", "right_0.mcap", "right_1.mcap"] {
+        std::fs::copy(folder.path("session/session_0.mcap"), folder.path("day").join(name)).expect("copied");
+    }
+    let found = "day: holds several recordings and no metadata.yaml that says which files are one: left_0.mcap; \
+                 right_0.mcap to right_1.mcap; name one file";
+    for command in ["info", "check"] {
+        let run = folder.run(&["bag", command, "day"]);
+        assert_eq!((run.code, run.stdout.contains(found)), (2, true), "{}", run.stdout);
+    }
+    assert!(folder.refusal(&["bag", "repair", "day"]).contains(found));
+    assert_eq!(folder.run(&["bag", "check", "day/left_0.mcap"]).code, 0);
+}
+
     assert_eq!(topic["gaps"], 0);
     assert_eq!(topic["stamps"]["repeats"], 20);
     assert_eq!(topic["definition"]["state"], "agrees");

@@ -66,6 +66,22 @@ pub fn cases() -> Vec<Case> {
             ["session_0.mcap", "session_2.mcap"].map(|name| (PathBuf::from(name), bytes.clone())).to_vec(),
         ),
         directory(
+            "several_recordings",
+            Unreadable,
+            &["several recordings", "grasp_0.mcap", "session_0.mcap to session_1.mcap"],
+            0,
+            ["session_0.mcap", "session_1.mcap", "grasp_0.mcap"]
+                .map(|name| (PathBuf::from(name), bytes.clone()))
+                .to_vec(),
+        ),
+        directory(
+            "a_recording_and_its_copy_in_another_storage",
+            Unreadable,
+            &["several recordings", "session_0.db3", "session_0.mcap"],
+            0,
+            ["session_0.mcap", "session_0.db3"].map(|name| (PathBuf::from(name), bytes.clone())).to_vec(),
+        ),
+        directory(
             "metadata_only",
             Unreadable,
             &["session_0.mcap"],

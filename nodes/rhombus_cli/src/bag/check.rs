@@ -13,8 +13,9 @@ use crate::output;
 
 /// Read all of a recording and say whether it is whole
 ///
-/// Exit code 0: whole. 1: damaged, and some of it can be read. 2: nothing of it can be read. 3: wrong usage. What is odd
-/// and harms nothing (stamps that jump back, no poses) is a remark and changes no exit code.
+/// Exit code 0: whole. 1: damaged, and some of it can be read. 2: nothing of it can be read, or it is a directory of several
+/// recordings without a metadata.yaml that says which files are one. 3: wrong usage. What is odd and harms nothing (stamps
+/// that jump back, no poses) is a remark and changes no exit code.
 #[derive(Args)]
 pub(crate) struct Check {
     /// rosbag2 directory, or an .mcap or .db3 file
