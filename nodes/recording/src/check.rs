@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::metadata::{self, Metadata, TopicMetadata};
-use crate::reader::Recording;
+use crate::reader::{MessageRef, Recording};
 use crate::topic::Topic;
 
 pub use periods::{Gap, Periods};
@@ -72,6 +72,11 @@ pub struct Report {
     pub problems: Vec<String>,
     /// Problems beyond those that are said.
     pub more_problems: u64,
+    /// Whether a recording that [`repair`](crate::repair::repair) makes of it has fewer problems: not where they are in the
+    /// messages, which stay as they were recorded.
+    pub repairable: bool,
+    /// Messages that can be read and are not what their type says here: their values mean nothing.
+    pub unlike_their_type: u64,
     /// What is odd and harms nothing, a sentence each.
     pub remarks: Vec<String>,
     /// Its files.
@@ -98,9 +103,17 @@ pub fn check(path: impl AsRef<Path>) -> Report {
     let path = path.as_ref();
     let mut report = Report::new(path);
     match Recording::open(path) {
-        Ok(recording) => report.fill(&recording),
+        Ok(recording) => report.fill(&recording, &mut |_| true),
         Err(error) => report.problem(error.to_string()),
     }
+    report.conclude();
+    report
+}
+
+/// As [`check`], of a recording that is open. `watch` sees each message and says whether to go on.
+pub(crate) fn check_watched(recording: &Recording, watch: &mut dyn FnMut(&MessageRef<'_>) -> bool) -> Report {
+    let mut report = Report::new(recording.path());
+    report.fill(recording, watch);
     report.conclude();
     report
 }
@@ -112,6 +125,8 @@ impl Report {
             verdict: Verdict::Unreadable,
             problems: Vec::new(),
             more_problems: 0,
+            repairable: false,
+            unlike_their_type: 0,
             remarks: Vec::new(),
             files: files_of(path),
             metadata_version: None,
@@ -130,7 +145,7 @@ impl Report {
         report
     }
 
-    fn fill(&mut self, recording: &Recording) {
+    fn fill(&mut self, recording: &Recording, watch: &mut dyn FnMut(&MessageRef<'_>) -> bool) {
         for damage in recording.damage() {
             self.problem(damage.to_string());
         }
@@ -159,6 +174,9 @@ impl Report {
                     break;
                 }
                 Ok(message) => {
+                    if !watch(&message) {
+                        break;
+                    }
                     self.message_count += 1;
                     if let Some(topic) = topics.get_mut(message.topic) {
                         topic.take(&message);
@@ -171,14 +189,20 @@ impl Report {
         let bounds = bounds.reduce(|(start, end), (first, last)| (start.min(first), end.max(last)));
         self.start_ns = bounds.map(|(start, _)| start);
         self.duration_ns = bounds.map_or(0, |(start, end)| end - start);
+        // What comes now lies in the messages: a repair keeps them as they are.
+        let in_the_files = self.problem_count();
+        let mut missing = 0;
         for topic in topics {
             let topic = topic.finish();
+            missing += u64::from(topic.recorded > topic.messages);
+            self.unlike_their_type += topic.unlike_its_type();
             topic.problems().into_iter().for_each(|problem| self.problem(problem));
             self.remarks.extend(topic.remarks());
             self.topics.push(topic);
         }
         self.topics.sort_by(|a, b| (&a.name, &a.type_name).cmp(&(&b.name, &b.type_name)));
         self.remark_on_topics();
+        self.repairable = in_the_files + missing > 0;
         self.metadata_version = metadata.as_ref().map(|metadata| metadata.version);
         self.ros_distro = metadata.map(|metadata| metadata.ros_distro).unwrap_or_default();
     }
@@ -223,6 +247,10 @@ impl Report {
         } else {
             self.more_problems += 1;
         }
+    }
+
+    fn problem_count(&self) -> u64 {
+        self.problems.len() as u64 + self.more_problems
     }
 
     fn conclude(&mut self) {

@@ -1,4 +1,4 @@
-//! Saves from a broken recording what can be read, into a new one that is whole.
+//! Saves from a broken recording what can be read, into a new one of which everything can be read.
 //!
 //! The old recording is not touched. The new one grows under a temporary name beside its place, is read back, and gets
 //! its name at the very end: a full disk or an interruption leaves nothing that looks like a recording.
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::check::{as_text, most_messages, too_many};
+use crate::check::{Report, as_text, check_watched, most_messages, too_many};
 use crate::error::Error;
 use crate::reader::Recording;
 use crate::writer::Writer;
@@ -88,6 +88,13 @@ pub struct Repaired {
     pub problems: Vec<String>,
     /// Problems beyond those that are said.
     pub more_problems: u64,
+    /// What a check says of the new recording, a sentence each: messages that are not what their type says, and are kept as
+    /// they were recorded. Without any the new recording is whole.
+    pub remaining: Vec<String>,
+    /// Such problems beyond those that are said.
+    pub more_remaining: u64,
+    /// Messages of the new recording that are not what their type says.
+    pub unlike_their_type: u64,
     /// In the order in which they came into the recording.
     pub topics: Vec<SavedTopic>,
 }
@@ -137,7 +144,7 @@ pub fn repair(path: &Path, output: &Path, go_on: &dyn Fn() -> bool) -> Result<Re
         return Err(RepairError::Unreadable(reason.unwrap_or_else(|| "no message is left".to_owned())));
     }
     writer.close()?;
-    read_back(place.unfinished(), &tally, go_on)?;
+    let found = read_back(place.unfinished(), &tally, go_on)?;
     place.finish()?;
     Ok(Repaired {
         path: path.to_owned(),
@@ -147,12 +154,15 @@ pub fn repair(path: &Path, output: &Path, go_on: &dyn Fn() -> bool) -> Result<Re
         all_saved: tally.all_saved(),
         problems: problems.said,
         more_problems: problems.more,
+        remaining: found.problems,
+        more_remaining: found.more_problems,
+        unlike_their_type: found.unlike_their_type,
         topics: tally.topics(),
     })
 }
 
-/// A new recording is whole, and has what was written.
-fn read_back(written: &Path, tally: &Tally<'_>, go_on: &dyn Fn() -> bool) -> Result<(), RepairError> {
+/// All of a new recording can be read, and it has what was written. What a check says of it can only lie in the messages.
+fn read_back(written: &Path, tally: &Tally<'_>, go_on: &dyn Fn() -> bool) -> Result<Report, RepairError> {
     let differs = |reason: String| RepairError::ReadBack { output: written.to_owned(), reason };
     let recording = Recording::open(written)?;
     if let Some(damage) = recording.damage().first() {
@@ -162,12 +172,19 @@ fn read_back(written: &Path, tally: &Tally<'_>, go_on: &dyn Fn() -> bool) -> Res
         return Err(differs(disagreement.clone()));
     }
     let mut again = Tally::new(&recording, None);
-    let mut stored = recording.stored_messages();
-    while let Some(message) = stored.next_ref() {
-        again.take(&message?);
-        ask(&again, go_on)?;
+    let mut asked = Ok(());
+    let report = check_watched(&recording, &mut |message| {
+        again.take(message);
+        asked = ask(&again, go_on);
+        asked.is_ok()
+    });
+    asked?;
+    if report.repairable {
+        let reason = report.problems.into_iter().next().unwrap_or_default();
+        return Err(differs(reason));
     }
-    tally.compare(&again).map_err(differs)
+    tally.compare(&again).map_err(differs)?;
+    Ok(report)
 }
 
 /// Asks now and then whether to go on.

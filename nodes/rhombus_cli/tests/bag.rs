@@ -262,7 +262,11 @@ fn a_repair_makes_a_whole_recording_of_all_that_a_check_can_read() {
         };
         assert_ne!(case.expected, Expected::Unreadable, "{}", case.name);
         assert_eq!(number(&report["saved"]), readable, "{}", case.name);
-        assert_eq!(code == 0, report["all_saved"] == true, "{}: {report}", case.name);
+        let remaining = report["remaining"].as_array().expect("a list");
+        let is_whole = report["all_saved"] == true && remaining.is_empty();
+        assert_eq!(code == 0, is_whole, "{}: {report}", case.name);
+        let checked = folder.run(&["bag", "check", "saved"]);
+        assert_eq!(checked.code == 0, remaining.is_empty(), "{}: {}", case.name, checked.stdout);
         if case.expected == Expected::Whole {
             assert_eq!(code, 0, "{}: {report}", case.name);
         }
@@ -295,6 +299,49 @@ fn a_repair_says_in_numbers_what_was_lost() {
         let said = format!(
             "{}: {} saved, {} lost",
             topic["name"].as_str().expect("text"),
+/// A repair helps where places cannot be read, and not where the messages are not what their type says.
+#[test]
+fn what_a_repair_cannot_change_is_said_by_it_and_a_check_does_not_send_there() {
+    let advice = "what to do: rhombus bag repair";
+    for (name, remaining) in [
+        ("short_cdr.mcap", 1),
+        ("unknown_encoding.mcap", 500),
+        ("another_definition.mcap", 500),
+        ("two_definitions.mcap", 250),
+        ("two_encodings.mcap", 250),
+    ] {
+        let folder = Folder::new();
+        let case = damaged::all().into_iter().find(|case| case.name == name).expect("it is made");
+        case.write(&folder.path("."));
+        let before = folder.run(&["bag", "check", name]);
+        assert_eq!(before.code, 1, "{name}: {}", before.stdout);
+        assert!(!before.stdout.contains(advice), "{name}: {}", before.stdout);
+        let repair = folder.run(&["bag", "repair", name, "--output", "saved"]);
+        assert_eq!(repair.code, 1, "{name}: {}", repair.stdout);
+        let said = match remaining {
+            1 => "nothing lost; 1 message is not what its type says; kept as recorded\n".to_owned(),
+            _ => {
+                format!("nothing lost; {remaining} messages are not what their type says; kept as recorded\n")
+            }
+        };
+        assert!(
+            repair.stdout.ends_with(&said) && !repair.stdout.contains("whole"),
+            "{name}: {}",
+            repair.stdout
+        );
+        let after = folder.run(&["bag", "check", "saved"]);
+        assert_eq!(after.code, 1, "{name}: {}", after.stdout);
+        assert!(!after.stdout.contains(advice), "{name}: {}", after.stdout);
+        for problem in after.stdout.lines().filter_map(|line| line.strip_prefix("  problem: ")) {
+            assert!(repair.stdout.contains(&format!("remains: {problem}\n")), "{name}: {}", repair.stdout);
+        }
+    }
+    let folder = with_session();
+    let whole = std::fs::read(folder.path("session/session_0.mcap")).expect("read");
+    std::fs::write(folder.path("cut.mcap"), &whole[..whole.len() / 2]).expect("written");
+    assert!(folder.run(&["bag", "check", "cut.mcap"]).stdout.contains(advice));
+}
+
             topic["saved"],
             topic["lost"]
         );

@@ -41,6 +41,14 @@ impl TopicReport {
         problems
     }
 
+    /// How many of its messages are not what their type says here; of a type that is not known here that is not known.
+    pub(super) fn unlike_its_type(&self) -> u64 {
+        match (&self.definition, &self.undecodable) {
+            (DefinitionState::Differs(_), _) => self.messages,
+            (_, undecodable) => undecodable.as_ref().map_or(0, |failures| failures.messages),
+        }
+    }
+
     /// What is odd about it.
     pub(super) fn remarks(&self) -> Vec<String> {
         let Self { name, type_name, messages, .. } = self;

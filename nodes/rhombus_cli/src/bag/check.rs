@@ -57,8 +57,14 @@ fn said(report: &Report) -> Result<String, std::fmt::Error> {
     for remark in &report.remarks {
         writeln!(text, "  remark: {remark}")?;
     }
-    if report.verdict == Verdict::Damaged {
-        writeln!(text, "  what to do: rhombus bag repair {}", report.path.display())?;
+    match report.verdict {
+        Verdict::Damaged if report.repairable => {
+            writeln!(text, "  what to do: rhombus bag repair {}", report.path.display())?;
+        }
+        Verdict::Damaged => {
+            text.push_str("  a repair changes nothing about it: messages are kept as they were recorded\n");
+        }
+        Verdict::Whole | Verdict::Unreadable => {}
     }
     Ok(text)
 }

@@ -15,11 +15,11 @@ use super::code_despite;
 use super::text::counted;
 use crate::output;
 
-/// Write what can be read of a recording to a new one that is whole
+/// Write what can be read of a recording to a new one of which everything can be read
 ///
 /// Topics, QoS, definitions, times and messages stay as they were. PATH is not touched and nothing is overwritten; a full
-/// disk or Ctrl-C leaves nothing behind. Exit code 0: every message that was recorded is in the new recording. 1: some are
-/// lost, or it is not known. 2: nothing can be read, or the new recording cannot be written. 3: wrong usage.
+/// disk or Ctrl-C leaves nothing behind. Exit code 0: every message that was recorded is in the new recording, which is whole.
+/// 1: some are lost, or it is not known, or some are not what their type says, and are kept as recorded. 2: nothing can be read, or the new recording cannot be written. 3: wrong usage.
 #[derive(Args)]
 pub(crate) struct Repair {
     /// rosbag2 directory, or an .mcap or .db3 file
@@ -47,7 +47,8 @@ impl Repair {
             true => output::json(&repaired),
             false => output::text(&said(&repaired)?),
         };
-        Ok(code_despite(printed, u8::from(!repaired.all_saved)))
+        let is_whole = repaired.all_saved && repaired.remaining.is_empty();
+        Ok(code_despite(printed, u8::from(!is_whole)))
     }
 }
 
@@ -66,6 +67,12 @@ fn said(repaired: &Repaired) -> Result<String, std::fmt::Error> {
         };
         writeln!(text, "{}: {} saved, {lost}", topic.name, topic.saved)?;
     }
+    for problem in &repaired.remaining {
+        writeln!(text, "remains: {problem}")?;
+    }
+    if repaired.more_remaining > 0 {
+        writeln!(text, "and {} more remain", repaired.more_remaining)?;
+    }
     let (saved, output) = (counted(repaired.saved, "message"), repaired.output.display());
     let lost = match (repaired.all_saved, repaired.lost) {
         (true, _) => "nothing lost".to_owned(),
@@ -75,6 +82,15 @@ fn said(repaired: &Repaired) -> Result<String, std::fmt::Error> {
         }
         (false, lost) => format!("{lost} lost"),
     };
-    writeln!(text, "{output}: whole: {saved} saved, {lost}")?;
+    if repaired.remaining.is_empty() {
+        writeln!(text, "{output}: whole: {saved} saved, {lost}")?;
+    } else {
+        let remains = match repaired.unlike_their_type {
+            0 => "topics have messages of several kinds".to_owned(),
+            1 => "1 message is not what its type says".to_owned(),
+            count => format!("{count} messages are not what their type says"),
+        };
+        writeln!(text, "{output}: readable: {saved} saved, {lost}; {remains}; kept as recorded")?;
+    }
     Ok(text)
 }
