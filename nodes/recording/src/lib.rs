@@ -29,6 +29,7 @@ mod playback;
 mod qos;
 mod reader;
 mod records;
+mod remap;
 pub mod repair;
 #[cfg(feature = "sqlite")]
 mod sqlite;
@@ -48,5 +49,6 @@ pub use error::Error;
 pub use playback::{Playback, PlaybackMessages};
 pub use qos::{Durability, History, Liveliness, Qos, QosTime, Reliability};
 pub use reader::{Message, MessageRef, Messages, Recording, StoredMessages};
+pub use remap::{RemapError, remapped};
 pub use topic::{RecordedTopic, Topic};
 pub use writer::{TopicId, Writer, WriterOptions, Written};

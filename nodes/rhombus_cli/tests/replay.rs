@@ -242,7 +242,25 @@ fn what_cannot_be_compared_is_exit_code_2_and_one_sentence() {
     let golden = golden(folder.path(), "press");
     let empty = folder.path().join("empty");
     Writer::create(&empty, "").unwrap().close().unwrap();
-    let cases: [(&str, &[&str], &str); 7] = [
+    let day = folder.path().join("day");
+    std::fs::create_dir(&day).unwrap();
+    for name in ["press", "slide"] {
+        let file = format!("{name}_0.mcap");
+        std::fs::copy(repository().join(bag(name)).join(&file), day.join(&file)).unwrap();
+    }
+    let two = |left: &'static str, right: &'static str| ["--remap", left, "--remap", right];
+    let merged = two("/left/measured_cp:=/measured_cp", "/right/measured_cp:=/measured_cp");
+    let twice = two("/left/measured_cp:=/measured_cp", "/left/measured_cp:=/other");
+    let swallowed = ["--remap", "/left/measured_cp:=/right/measured_cp"];
+    let cases: [(&str, &[&str], &str); 11] = [
+        (day.to_str().unwrap(), &[], "several recordings"),
+        (
+            "tests/bags/two_devices",
+            &merged,
+            "/left/measured_cp and /right/measured_cp would both be /measured_cp",
+        ),
+        ("tests/bags/two_devices", &twice, "/left/measured_cp is given two names, /measured_cp and /other"),
+        ("tests/bags/two_devices", &swallowed, "/left/measured_cp and /right/measured_cp would both be"),
         ("tests/bags/nowhere", &[], "tests/bags/nowhere"),
         ("README.md", &[], "README.md"),
         (empty.to_str().unwrap(), &[], "no poses on /measured_cp"),

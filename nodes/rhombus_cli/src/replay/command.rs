@@ -37,8 +37,8 @@ pub struct ReplayCommand {
     /// Namespace of the session in the recording; found when only one fits
     #[arg(long, value_name = "NAMESPACE")]
     namespace: Option<String>,
-    /// A recorded topic under another name, such as /PSM1/measured_cp:=/measured_cp; may be repeated
-    #[arg(long, value_name = "FROM:=TO", value_parser = remapped)]
+    /// A recorded topic under another name that no other topic has, such as /PSM1/measured_cp:=/measured_cp; may be repeated
+    #[arg(long, value_name = "FROM:=TO", value_parser = remapping)]
     remap: Vec<(String, String)>,
     /// Write forces, laws, contacts, surfaces and the mesh to a new recording
     #[arg(long, value_name = "NEW", value_hint = ValueHint::AnyPath)]
@@ -77,7 +77,7 @@ struct Report<'a> {
     comparison: Option<json::Json>,
 }
 
-fn remapped(text: &str) -> Result<(String, String), String> {
+fn remapping(text: &str) -> Result<(String, String), String> {
     match text.split_once(":=") {
         Some((from, to)) if from.starts_with('/') && to.starts_with('/') => {
             Ok((from.to_owned(), to.to_owned()))

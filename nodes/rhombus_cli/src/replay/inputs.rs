@@ -2,7 +2,7 @@
 
 use anyhow::{Context, bail, ensure};
 use recording::messages::{Bool, JointState, Joy, PoseStamped, TFMessage, TransformStamped, same_definition};
-use recording::{Playback, RecordedTopic, Recording, cdr::Message};
+use recording::{Playback, RecordedTopic, Recording, cdr::Message, remapped};
 use scene::topic;
 
 /// What a message of a topic means to the model.
@@ -36,22 +36,16 @@ impl Inputs {
     /// stand; what fits the recording when `None`. `remap`: recorded names and the names they have for the model.
     ///
     /// # Errors
-    /// No poses, poses of several sessions, a topic of another type or definition.
+    /// No poses, poses of several sessions, a topic of another type or definition, names that cannot be meant.
     pub(super) fn find(
         recording: &Recording,
         devices: &[String],
         namespace: Option<&str>,
         remap: &[(String, String)],
     ) -> anyhow::Result<Self> {
-        for (from, _) in remap {
-            let is_there = recording.topics().iter().any(|recorded| recorded.topic.name == *from);
-            ensure!(is_there, "--remap: {from} is not in the recording; its topics are {}", names(recording));
-        }
-        let name_of = |recorded: &RecordedTopic| {
-            let own = &recorded.topic.name;
-            remap.iter().find(|(from, _)| from == own).map_or(own, |(_, to)| to).clone()
-        };
-        let heard: Vec<String> = recording.topics().iter().map(name_of).collect();
+        let recorded: Vec<&str> =
+            recording.topics().iter().map(|recorded| recorded.topic.name.as_str()).collect();
+        let heard = remapped(&recorded, remap).context("--remap")?;
         let namespace = match namespace {
             Some(namespace) => namespace.to_owned(),
             None => found_namespace(&heard, devices)?,
