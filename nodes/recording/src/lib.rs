@@ -25,6 +25,7 @@ pub mod messages;
 mod metadata;
 mod order;
 mod parts;
+mod place;
 mod playback;
 mod qos;
 mod reader;
@@ -46,6 +47,7 @@ pub use compare::{
 pub use definitions::{DefinitionError, MessageDefinition, MessageDefinitions};
 pub use digest::{Digest, DigestError, DigestValue, digest_of};
 pub use error::Error;
+pub use place::Place;
 pub use playback::{Playback, PlaybackMessages};
 pub use qos::{Durability, History, Liveliness, Qos, QosTime, Reliability};
 pub use reader::{Message, MessageRef, Messages, Recording, StoredMessages};

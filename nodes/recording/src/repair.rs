@@ -15,7 +15,6 @@ use crate::error::Error;
 use crate::reader::Recording;
 use crate::writer::Writer;
 
-use output::Place;
 pub use output::default_output;
 use tally::Tally;
 
@@ -105,7 +104,7 @@ pub struct Repaired {
 /// # Errors
 /// When nothing can be read, `output` exists or cannot be written, or `go_on` said no. Nothing is left of `output` then.
 pub fn repair(path: &Path, output: &Path, go_on: &dyn Fn() -> bool) -> Result<Repaired, RepairError> {
-    let place = Place::beside(output, path)?;
+    let place = output::place(output, path)?;
     let recording = Recording::open(path).map_err(|error| RepairError::Unreadable(error.to_string()))?;
     let metadata = crate::check::metadata_of(path);
     let distro = metadata.as_ref().map_or("", |metadata| metadata.ros_distro.as_str());

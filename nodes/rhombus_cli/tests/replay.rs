@@ -290,6 +290,51 @@ fn a_recording_of_forces_only_asks_for_no_surface() {
     assert_eq!((&report["poses"], &report["surfaces"]), (&1500.into(), &0.into()));
 }
 
+/// Poses of which none can be decoded: the replay finds that out at its end.
+fn without_poses(folder: &Path) -> String {
+    let path = folder.join("without_poses");
+    changed(&bag("press"), &path, |_, message, _| vec![message.data[..8].to_vec()], Topic::clone);
+    path.to_str().unwrap().to_owned()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_replay_that_fails_leaves_no_recording_and_the_next_one_is_not_in_its_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let broken = without_poses(folder.path());
+    let new = folder.path().join("new").to_str().unwrap().to_owned();
+    let output = replay(&broken, &["--record", &new]);
+    assert_eq!(code(&output), 2, "{}", said(&output));
+    assert!(said(&output).contains("no pose could be read"), "{}", said(&output));
+    assert_eq!(names(folder.path()), ["without_poses"]);
+
+    // As on a full disk: files cannot grow beyond this.
+    let script = format!(
+        "trap '' XFSZ; exec prlimit --fsize=100000 {} replay {} --params config/liver.yaml --record {new}",
+        env!("CARGO_BIN_EXE_rhombus"),
+        bag("press"),
+    );
+    let output = Command::new("sh").args(["-c", &script]).current_dir(repository()).output().unwrap();
+    assert_eq!(code(&output), 2, "{}", said(&output));
+    assert_eq!(names(folder.path()), ["without_poses"]);
+
+    let output = replay(&bag("press"), &["--record", &new]);
+    assert_eq!(code(&output), 0, "{}", said(&output));
+    assert_eq!(names(folder.path()), ["new", "without_poses"]);
+    assert_eq!(names(Path::new(&new)), ["metadata.yaml", "new_0.mcap"]);
+    // Directories above it are made, as before.
+    let deep = folder.path().join("a/b/new");
+    let output = replay(&bag("press"), &["--record", deep.to_str().unwrap()]);
+    assert_eq!(code(&output), 0, "{}", said(&output));
+    assert_eq!(names(&folder.path().join("a/b")), ["new"]);
+}
+
 /// The forces of a recording in their order, with their stamps.
 fn forces(path: &Path) -> Vec<(Time, Vector3)> {
     let recording = Recording::open(path).unwrap();

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use anyhow::{Context, ensure};
@@ -9,6 +11,7 @@ use clap::{Args, ValueHint};
 use recording::{Comparison, Digest, Outcome, Recording, Tolerances, Verdict};
 use scene::topic;
 use serde::Serialize;
+use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::model::{Counts, Replay};
 use super::record::Record;
@@ -40,7 +43,7 @@ pub struct ReplayCommand {
     /// A recorded topic under another name that no other topic has, such as /PSM1/measured_cp:=/measured_cp; may be repeated
     #[arg(long, value_name = "FROM:=TO", value_parser = remapping)]
     remap: Vec<(String, String)>,
-    /// Write forces, laws, contacts, surfaces and the mesh to a new recording
+    /// Write forces, laws, contacts, surfaces and the mesh to a new recording; a replay that fails leaves none
     #[arg(long, value_name = "NEW", value_hint = ValueHint::AnyPath)]
     record: Option<PathBuf>,
     /// Compare with this recording; it may be RECORDING itself
@@ -117,9 +120,16 @@ impl ReplayCommand {
             Some(directory) => Some(Record::create(directory, &topics, &recording)?),
             None => None,
         };
+        let stopped = Arc::new(AtomicBool::new(false));
+        if record.is_some() {
+            for signal in [SIGINT, SIGTERM] {
+                signal_hook::flag::register(signal, Arc::clone(&stopped))?;
+            }
+        }
         let mut digest = Digest::new();
         let began = Instant::now();
         let counts = replay.run(|output| {
+            ensure!(!stopped.load(Ordering::Relaxed), "interrupted; nothing is left behind");
             let name = &topics[output.topic].name;
             digest.take(name, output.data)?;
             if let Some(comparison) = &mut comparison {
@@ -132,9 +142,6 @@ impl ReplayCommand {
         })?;
         let mut outcome = comparison.map(Comparison::finish);
         let elapsed_s = began.elapsed().as_secs_f64();
-        if let Some(record) = record {
-            record.close()?;
-        }
         ensure!(counts.poses > 0, "{}: no pose could be read from it", self.recording.display());
         if let Some(Outcome { verdict, .. }) = &mut outcome
             && !matches!(verdict, Verdict::NotCompared(_))
@@ -152,6 +159,9 @@ impl ReplayCommand {
             comparison: outcome.as_ref().map(json::json),
         };
         self.write_reports(outcome.as_ref())?;
+        if let Some(record) = record {
+            record.close()?;
+        }
         match self.json {
             true => output::json(&report)?,
             false => output::text(&in_words(&report, outcome.as_ref()))?,

@@ -3,19 +3,20 @@
 use std::path::Path;
 
 use anyhow::Context;
-use recording::{MessageDefinition, MessageDefinitions, Recording, Topic, TopicId, Writer, messages};
+use recording::{MessageDefinition, MessageDefinitions, Place, Recording, Topic, TopicId, Writer, messages};
 
 use super::answers::OutputTopic;
 use super::model::Output;
 
-/// A recording of the outputs that is being written.
+/// A recording of the outputs that is being written. It has its name when it is closed; without that nothing is left of it.
 pub(super) struct Record {
     writer: Writer,
     ids: Vec<TopicId>,
+    place: Place,
 }
 
 impl Record {
-    /// Begins it; `directory` must not exist. Definitions come from an installed ROS 2 where one is sourced, else from the
+    /// Begins it; `directory` must not exist, and those above it are made. Definitions come from an installed ROS 2 where one is sourced, else from the
     /// replayed recording, else they are this program's own.
     pub(super) fn create(
         directory: &Path,
@@ -23,7 +24,11 @@ impl Record {
         replayed: &Recording,
     ) -> anyhow::Result<Self> {
         let installed = MessageDefinitions::from_environment();
-        let mut writer = Writer::create(directory, "")?;
+        if let Some(parent) = directory.parent() {
+            std::fs::create_dir_all(parent).with_context(|| format!("{}: cannot make", parent.display()))?;
+        }
+        let place = Place::beside(directory)?;
+        let mut writer = Writer::create(place.unfinished(), "")?;
         let mut ids = Vec::new();
         for topic in topics {
             ids.push(writer.add_topic(Topic {
@@ -34,7 +39,7 @@ impl Record {
                 definition: definition(topic.type_name, &installed, replayed),
             })?);
         }
-        Ok(Self { writer, ids })
+        Ok(Self { writer, ids, place })
     }
 
     pub(super) fn take(&mut self, output: &Output<'_>) -> anyhow::Result<()> {
@@ -44,7 +49,7 @@ impl Record {
 
     pub(super) fn close(self) -> anyhow::Result<()> {
         self.writer.close()?;
-        Ok(())
+        Ok(self.place.finish()?)
     }
 }
 
