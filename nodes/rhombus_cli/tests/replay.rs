@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 use recording::cdr::{decode, encode};
 use recording::messages::{PoseStamped, Time, TransformStamped, Vector3, WrenchStamped, own_definition};
@@ -333,6 +334,55 @@ fn a_replay_that_fails_leaves_no_recording_and_the_next_one_is_not_in_its_way() 
     let output = replay(&bag("press"), &["--record", deep.to_str().unwrap()]);
     assert_eq!(code(&output), 0, "{}", said(&output));
     assert_eq!(names(&folder.path().join("a/b")), ["new"]);
+}
+
+/// A CI shows the files that it finds: those of the run before would say that all is well.
+#[test]
+fn where_nothing_could_be_compared_the_reports_say_so_and_no_older_ones_stay() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let reports = ["r.xml", "r.md", "r.svg"].map(path);
+    let written = ["--junit", &reports[0], "--markdown", &reports[1], "--plot", &reports[2]];
+    let broken = without_poses(folder.path());
+    let golden = golden(folder.path(), "press");
+    let press = bag("press");
+    let cases: [(&str, &[&str], &str); 5] = [
+        (&press, &["--expect", "tests/bags/nowhere"], "tests/bags/nowhere"),
+        ("tests/bags/elsewhere", &["--expect", &golden], "tests/bags/elsewhere"),
+        (&press, &["--expect", &golden, "--set", "nonsense=1"], "nonsense"),
+        (&press, &["--expect", &golden, "--tolerance", "servo_cf=x"], "servo_cf"),
+        (&broken, &["--expect", &golden], "no pose could be read"),
+    ];
+    for (recording, more, reason) in cases {
+        for path in &reports {
+            std::fs::write(path, "all is well").unwrap();
+        }
+        let output = replay(recording, &[more, &written].concat());
+        assert_eq!(code(&output), 2, "{more:?}: {}", said(&output));
+        let [junit, markdown, plot] = reports.each_ref().map(|path| std::fs::read_to_string(path).unwrap());
+        assert!(junit.contains("tests=\"1\" failures=\"0\" errors=\"1\""), "{junit}");
+        assert!(junit.contains("<error message=") && junit.contains(reason), "{junit}");
+        assert!(markdown.contains("## Replay: not compared"), "{markdown}");
+        assert!(markdown.replace('\\', "").contains(reason), "{markdown}");
+        assert!(plot.contains("<svg") && !plot.contains("all is well"), "{plot}");
+    }
+    // Nor where the replay is killed, as by the time limit of a CI job: here while it waits for its parameters.
+    for path in &reports {
+        std::fs::write(path, "all is well").unwrap();
+    }
+    let pipe = path("params.yaml");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let arguments = [&["replay", &press, "--params", &pipe, "--expect", &golden][..], &written].concat();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rhombus"));
+    command.args(arguments).current_dir(repository()).stderr(Stdio::null());
+    let child = Busy(vec![command.spawn().unwrap()]);
+    let is_stale = |path: &String| std::fs::read_to_string(path).unwrap().contains("all is well");
+    let end = Instant::now() + Duration::from_secs(20);
+    while reports.iter().any(is_stale) && Instant::now() < end {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    drop(child);
+    assert!(!reports.iter().any(is_stale));
 }
 
 /// The forces of a recording in their order, with their stamps.

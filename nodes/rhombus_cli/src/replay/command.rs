@@ -26,7 +26,7 @@ use crate::output;
 /// No ROS is needed: the model is the one of the deformation node, time is in the stamps, and equal inputs give equal bits. Frames are
 /// those of the parameters and of recorded /tf and /tf_static. Exit code: 0 the same (or nothing to compare), 1 different, 2 it could not be
 /// compared, as when a
-/// place in RECORDING or GOLDEN cannot be read.
+/// place in RECORDING or GOLDEN cannot be read. The reports say that too, and reports of an earlier run never stay.
 #[derive(Args)]
 pub struct ReplayCommand {
     /// Recording with the poses: a rosbag2 directory, or an .mcap or .db3 file
@@ -95,7 +95,20 @@ impl ReplayCommand {
     /// # Errors
     /// Something could not be read, replayed or written.
     pub fn run(&self) -> anyhow::Result<ExitCode> {
-        guarded(&self.recording, || self.judged())
+        // Whatever ends this program: no report of an earlier run must pass for one of this.
+        self.write_reports(&self.not_compared("the replay did not come to its end"), Path::is_file)?;
+        let judged = guarded(&self.recording, || self.judged());
+        if let Err(error) = &judged {
+            // The error is told in any case, and no older report is left.
+            let _ = self.write_reports(&self.not_compared(&format!("{error:#}")), |_| true);
+        }
+        judged
+    }
+
+    /// The outcome where there is no comparison.
+    fn not_compared(&self, reason: &str) -> Outcome {
+        let golden = self.expect.clone().unwrap_or_default();
+        Outcome { golden, topics: Vec::new(), verdict: Verdict::NotCompared(reason.to_owned()) }
     }
 
     fn judged(&self) -> anyhow::Result<ExitCode> {
@@ -158,7 +171,9 @@ impl ReplayCommand {
             sha256: digest.finish().to_string(),
             comparison: outcome.as_ref().map(json::json),
         };
-        self.write_reports(outcome.as_ref())?;
+        if let Some(outcome) = &outcome {
+            self.write_reports(outcome, |_| true)?;
+        }
         if let Some(record) = record {
             record.close()?;
         }
@@ -178,22 +193,22 @@ impl ReplayCommand {
         })
     }
 
-    fn write_reports(&self, outcome: Option<&Outcome>) -> anyhow::Result<()> {
-        let Some(outcome) = outcome else { return Ok(()) };
+    /// Writes the reports that are asked for, at paths that are `wanted`.
+    fn write_reports(&self, outcome: &Outcome, wanted: fn(&Path) -> bool) -> anyhow::Result<()> {
         let write = |path: &Path, content: String| {
             std::fs::write(path, content).with_context(|| format!("{}: cannot write", path.display()))
         };
-        if let Some(path) = &self.plot {
-            write(path, plot::svg(outcome)?)?;
-        }
-        if let Some(path) = &self.junit {
-            write(path, junit::junit(outcome))?;
-        }
-        if let Some(path) = &self.markdown {
-            let plot = self.plot.as_deref().and_then(Path::file_name).map(|name| name.to_string_lossy());
-            write(path, markdown::markdown(outcome, plot.as_deref()))?;
-        }
-        Ok(())
+        let wanted = |path: &Option<PathBuf>| path.clone().filter(|path| wanted(path));
+        let plot = self.plot.as_deref().filter(|_| !outcome.topics.is_empty()).and_then(Path::file_name);
+        let plot = plot.map(|name| name.to_string_lossy());
+        let in_markdown = || markdown::markdown(outcome, plot.as_deref());
+        // One that cannot be written keeps none of the others from being written.
+        let written = [
+            wanted(&self.plot).map(|path| plot::svg(outcome).and_then(|svg| write(&path, svg))),
+            wanted(&self.junit).map(|path| write(&path, junit::junit(outcome))),
+            wanted(&self.markdown).map(|path| write(&path, in_markdown())),
+        ];
+        written.into_iter().flatten().collect()
     }
 }
 

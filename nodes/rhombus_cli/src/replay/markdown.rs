@@ -11,6 +11,9 @@ use crate::markup::markdown as escaped;
 pub fn markdown(outcome: &Outcome, plot: Option<&str>) -> String {
     let mut text =
         format!("## Replay: {}\n\n{}.\n\n", outcome.verdict.word(), escaped(&text::verdict(outcome)));
+    if outcome.topics.is_empty() {
+        return text;
+    }
     text.push_str(
         "| topic | verdict | golden | computed | pairs | differing | missing | extra | reordered |\n\
          |---|---|--:|--:|--:|--:|--:|--:|--:|\n",
