@@ -94,6 +94,14 @@ pub enum Error {
         /// The encoder's reason, in the sentence.
         reason: mcap::McapError,
     },
+    /// `metadata.yaml` has no room for another topic.
+    #[error("{}: {accepted} topics are accepted and no more: with another one no reader takes the metadata.yaml", path.display())]
+    TooManyTopics {
+        /// The directory of the recording.
+        path: PathBuf,
+        /// Topics that it has.
+        accepted: usize,
+    },
     /// A topic was added twice.
     #[error("topic {topic} is in the recording already")]
     TopicTwice {

@@ -18,7 +18,7 @@ pub(crate) const NEWEST: u32 = 9;
 /// ROS 2 Humble.
 pub(crate) const HUMBLE: u32 = 5;
 /// A file with a thousand topics has a megabyte. Reading YAML can take a hundred times its size.
-const LARGEST_BYTES: u64 = 4_000_000;
+pub(crate) const LARGEST_BYTES: u64 = 4_000_000;
 /// What rosbag2 writes as the start of a recording without messages.
 const NO_START_NS: u64 = i64::MAX as u64;
 

@@ -41,6 +41,16 @@ pub enum RepairError {
         /// The old one.
         path: PathBuf,
     },
+    /// The old recording has more topics than the metadata of a new one can have.
+    #[error("{}: has {topics} topics; accepted: {accepted}, with more of them no reader takes the metadata.yaml of a recording", path.display())]
+    TooManyTopics {
+        /// The old one.
+        path: PathBuf,
+        /// Its topics.
+        topics: usize,
+        /// As many of these would do.
+        accepted: usize,
+    },
     /// What was written does not read back.
     #[error("{}: does not read back as it was written: {reason}; the disk may be failing", output.display())]
     ReadBack {
@@ -112,7 +122,13 @@ pub fn repair(path: &Path, output: &Path, go_on: &dyn Fn() -> bool) -> Result<Re
     let mut writer = Writer::create(place.unfinished(), distro)?;
     let mut topics = Vec::new();
     for found in recording.topics() {
-        topics.push(writer.add_topic(found.topic.clone())?);
+        topics.push(writer.add_topic(found.topic.clone()).map_err(|error| match error {
+            Error::TooManyTopics { accepted, .. } => {
+                let (path, topics) = (path.to_owned(), recording.topics().len());
+                RepairError::TooManyTopics { path, topics, accepted }
+            }
+            error => error.into(),
+        })?);
     }
     let mut problems = Problems::default();
     recording.damage().iter().for_each(|damage| problems.add(damage.to_string()));

@@ -1,5 +1,7 @@
 //! Writes recordings as rosbag2 does: uncompressed MCAP in chunks, `metadata.yaml` of version 9 or 5.
 
+mod room;
+
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufWriter;
@@ -9,10 +11,11 @@ use mcap::records::MessageHeader;
 use mcap::write::NoSeek;
 
 use crate::error::Error;
-use crate::metadata::{self, Metadata, TopicMetadata, TopicWithCount};
+use crate::metadata::{self, Metadata};
 use crate::qos;
 use crate::reader::MessageRef;
 use crate::topic::Topic;
+use room::{Room, entry};
 
 /// A chunk goes to the file when it is this large (the encoder sees to that) ...
 const CHUNK_BYTES: u64 = 1 << 20;
@@ -31,6 +34,8 @@ pub struct Writer {
     ros_distro: String,
     metadata_version: u32,
     topics: Vec<Channel>,
+    /// For more topics in `metadata.yaml`.
+    room: Room,
     /// First and last log time, ns.
     bounds_ns: Option<(u64, u64)>,
     /// Log time of the first message since the last flush.
@@ -115,6 +120,8 @@ impl Writer {
             .compression(None)
             // A chunk is built in memory and written in one go: a cut can only fall between chunks or into the last one.
             .disable_seeking(true);
+        let empty = Metadata::of_one_file(&file_name, None, Vec::new(), &ros_distro, metadata_version);
+        let room = Room::of(&empty)?;
         let mcap = options.create(NoSeek::new(BufWriter::new(file))).map_err(Error::write(&file_path))?;
         let mut writer = Self {
             mcap,
@@ -124,11 +131,12 @@ impl Writer {
             ros_distro,
             metadata_version,
             topics: Vec::new(),
+            room,
             bounds_ns: None,
             unflushed_since_ns: None,
         };
         writer.flush()?;
-        writer.metadata().save(&writer.directory)?;
+        empty.save(&writer.directory)?;
         Ok(writer)
     }
 
@@ -141,7 +149,7 @@ impl Writer {
     /// or encodings.
     ///
     /// # Errors
-    /// When the topic is there already, or the file cannot be written.
+    /// When the topic is there already, there are more than `metadata.yaml` can have (thousands), or the file cannot be written.
     pub fn add_topic(&mut self, topic: Topic) -> Result<TopicId, Error> {
         let is_same = |known: &Topic| {
             known.name == topic.name
@@ -151,6 +159,9 @@ impl Writer {
         };
         if self.topics.iter().any(|known| is_same(&known.topic)) {
             return Err(Error::TopicTwice { topic: topic.name });
+        }
+        if !self.room.take(&topic)? {
+            return Err(Error::TooManyTopics { path: self.directory.clone(), accepted: self.topics.len() });
         }
         let definition = &topic.definition;
         let failed = Error::write(&self.file_path);
@@ -256,16 +267,8 @@ impl Writer {
     }
 
     fn metadata(&self) -> Metadata {
-        let topics = self.topics.iter().map(|Channel { topic, message_count, .. }| TopicWithCount {
-            topic_metadata: TopicMetadata {
-                name: topic.name.clone(),
-                type_name: topic.type_name.clone(),
-                serialization_format: topic.serialization_format.clone(),
-                offered_qos_profiles: topic.offered_qos.clone(),
-                type_description_hash: topic.definition.type_hash.clone(),
-            },
-            message_count: *message_count,
-        });
+        let topics =
+            self.topics.iter().map(|Channel { topic, message_count, .. }| entry(topic, *message_count));
         Metadata::of_one_file(
             &self.file_name,
             self.bounds_ns,

@@ -381,6 +381,17 @@ fn a_repair_overwrites_nothing_and_does_not_write_into_the_old_recording() {
 fn a_repair_that_cannot_write_all_of_it_leaves_nothing_behind() {
     let folder = with_session();
     // As on a full disk: files cannot grow beyond this, and writing says so instead of ending the process.
+/// Such as a file in which every topic that a robot ever had is a channel.
+#[test]
+fn a_repair_of_more_topics_than_metadata_takes_is_refused_at_once() {
+    let folder = Folder::new();
+    let bytes = whole::many_topics(20_000);
+    std::fs::write(folder.path("many.mcap"), bytes).expect("written");
+    let refusal = folder.refusal(&["bag", "repair", "many.mcap"]);
+    assert!(refusal.contains("20000 topics") && refusal.contains("accepted"), "{refusal}");
+    assert_eq!(names(&folder.path(".")), BTreeSet::from(["many.mcap".to_owned()]), "nothing is left behind");
+}
+
     let script = format!(
         "trap '' XFSZ; exec prlimit --fsize=100000 {} bag repair session --output new",
         env!("CARGO_BIN_EXE_rhombus")

@@ -118,3 +118,21 @@ pub fn one_topic(topic: Topic, count: u64, message: impl Fn(u64) -> Vec<u8>) -> 
     });
     bytes
 }
+
+/// A file with so many topics of one message each, more than a recording of this crate can have.
+pub fn many_topics(count: u16) -> Vec<u8> {
+    let mut writer = mcap::Writer::new(std::io::Cursor::new(Vec::new())).unwrap();
+    let schema = writer.add_schema(Bool::TYPE_NAME, "ros2msg", BOOL_TEXT.as_bytes()).unwrap();
+    let data = encode(&Bool { data: true });
+    for number in 0..count {
+        let name = format!("/robots/number_{number}/is_enabled");
+        let channel_id =
+            writer.add_channel(schema, &name, "cdr", &std::collections::BTreeMap::new()).unwrap();
+        let log_time = log_time_ns(u64::from(number));
+        let header =
+            mcap::records::MessageHeader { channel_id, sequence: 0, log_time, publish_time: log_time };
+        writer.write_to_known_channel(&header, &data).unwrap();
+    }
+    writer.finish().unwrap();
+    writer.into_inner().into_inner()
+}
