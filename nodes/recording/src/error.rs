@@ -2,6 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+/// What is a recording.
+#[cfg(feature = "sqlite")]
+const ACCEPTED: &str =
+    "a rosbag2 directory of .mcap or .db3 files, with metadata.yaml or without, or one such file";
+#[cfg(not(feature = "sqlite"))]
+const ACCEPTED: &str = "a rosbag2 directory of .mcap files, with metadata.yaml or without, or one such file";
+
 /// Why a recording could not be written or read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -23,7 +30,7 @@ pub enum Error {
         path: PathBuf,
     },
     /// The path is not a recording at all.
-    #[error("{}: not a recording: {reason}; accepted: a rosbag2 directory with metadata.yaml or .mcap files, or one .mcap file", path.display())]
+    #[error("{}: not a recording: {reason}; accepted: {ACCEPTED}", path.display())]
     NotARecording {
         /// What was given.
         path: PathBuf,

@@ -148,7 +148,23 @@ fn wrong_usage_of_bag_is_exit_code_3_and_help_is_0() {
         assert!(run.stderr.contains("--help"), "{arguments:?}: {}", run.stderr);
     }
     assert_eq!(folder.run(&["bag", "check", "--help"]).code, 0);
-    assert_eq!(folder.run(&["evaluate", "--frobnicate"]).code, 2, "other commands keep their code");
+    for arguments in
+        [&["evaluate", "--frobnicate"][..], &["--frobnicate", "evaluate", "bag"], &["--frobnicate"]]
+    {
+        assert_eq!(folder.run(arguments).code, 2, "{arguments:?}: other commands keep their code");
+    }
+}
+
+#[test]
+fn what_is_no_recording_is_told_what_is_one() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("empty")).expect("made");
+    let refusal = folder.refusal(&["bag", "repair", "empty"]);
+    let accepted = match cfg!(feature = "sqlite") {
+        true => "a rosbag2 directory of .mcap or .db3 files, with metadata.yaml or without, or one such file",
+        false => "a rosbag2 directory of .mcap files, with metadata.yaml or without, or one such file",
+    };
+    assert!(refusal.contains(&format!("accepted: {accepted}")), "{refusal}");
 }
 
 #[test]
