@@ -14,7 +14,7 @@ mod stability;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 #[cfg(feature = "replay")]
 use rhombus_cli::replay;
 use rhombus_cli::{assignments, calibrate, output};
@@ -82,7 +82,11 @@ fn refused(error: &anyhow::Error) -> ExitCode {
 fn not_accepted(error: &clap::Error) -> ExitCode {
     // Whoever closed the pipe does not want to read it.
     let _ = error.print();
-    let command = std::env::args_os().nth(1);
+    // Whatever stands before it.
+    let names = Arguments::command();
+    let mut arguments = std::env::args_os().skip(1);
+    let command =
+        arguments.find(|argument| names.get_subcommands().any(|known| *argument == *known.get_name()));
     match error.exit_code() {
         0 => ExitCode::SUCCESS,
         _ if command.is_some_and(|command| command == "bag") => ExitCode::from(bag::WRONG_USAGE),

@@ -142,6 +142,8 @@ fn wrong_usage_of_bag_is_exit_code_3_and_help_is_0() {
         &["bag", "repair"],
         &["bag", "repair", "session", "--output"],
         &["bag", "frobnicate", "session"],
+        &["--frobnicate", "bag", "check", "session"],
+        &["--frobnicate", "value", "bag", "check", "session"],
     ] {
         let run = folder.run(arguments);
         assert_eq!((run.code, run.stdout.as_str()), (3, ""), "{arguments:?}: {}", run.stderr);
@@ -179,24 +181,6 @@ fn what_is_not_there_is_not_readable() {
     assert_eq!(names(&folder.path(".")), BTreeSet::new(), "nothing is left behind");
 }
 
-#[test]
-fn info_says_rates_gaps_stamps_qos_and_types() {
-    let folder = Folder::new();
-    let bytes = whole::one_topic(
-        whole::topic("/measured_cp", "geometry_msgs/msg/PoseStamped", whole::POSE_TEXT),
-        1000,
-        // Two messages of each hundred have the stamp of the one before.
-        |number| recording::cdr::encode(&whole::pose(if number % 50 == 49 { number - 1 } else { number })),
-    );
-    std::fs::write(folder.path("poses.mcap"), bytes).expect("written");
-    let info = folder.json(&["bag", "info", "poses.mcap", "--json"]);
-    assert_eq!(info["verdict"], "whole");
-    assert_eq!(info["start_ns"], whole::START_NS);
-    let topic = &info["topics"][0];
-    assert_eq!(topic["name"], "/measured_cp");
-    assert_eq!(topic["messages"], 1000);
-    assert_eq!(topic["mean_rate_hz"], 1000.0);
-    assert_eq!(topic["median_ns"], 1_000_000);
 /// Such as a directory with everything that was recorded on a day.
 #[test]
 fn a_directory_of_several_recordings_without_metadata_is_refused_and_names_them() {
@@ -215,6 +199,24 @@ fn a_directory_of_several_recordings_without_metadata_is_refused_and_names_them(
     assert_eq!(folder.run(&["bag", "check", "day/left_0.mcap"]).code, 0);
 }
 
+#[test]
+fn info_says_rates_gaps_stamps_qos_and_types() {
+    let folder = Folder::new();
+    let bytes = whole::one_topic(
+        whole::topic("/measured_cp", "geometry_msgs/msg/PoseStamped", whole::POSE_TEXT),
+        1000,
+        // Two messages of each hundred have the stamp of the one before.
+        |number| recording::cdr::encode(&whole::pose(if number % 50 == 49 { number - 1 } else { number })),
+    );
+    std::fs::write(folder.path("poses.mcap"), bytes).expect("written");
+    let info = folder.json(&["bag", "info", "poses.mcap", "--json"]);
+    assert_eq!(info["verdict"], "whole");
+    assert_eq!(info["start_ns"], whole::START_NS);
+    let topic = &info["topics"][0];
+    assert_eq!(topic["name"], "/measured_cp");
+    assert_eq!(topic["messages"], 1000);
+    assert_eq!(topic["mean_rate_hz"], 1000.0);
+    assert_eq!(topic["median_ns"], 1_000_000);
     assert_eq!(topic["gaps"], 0);
     assert_eq!(topic["stamps"]["repeats"], 20);
     assert_eq!(topic["definition"]["state"], "agrees");
@@ -297,24 +299,6 @@ fn a_repair_makes_a_whole_recording_of_all_that_a_check_can_read() {
     }
 }
 
-#[test]
-fn a_repair_says_in_numbers_what_was_lost() {
-    let flipped = mcap_file::cases().into_iter().find(|case| case.name == "flipped_in_chunk.mcap");
-    let case = flipped.expect("it is made");
-    let folder = Folder::new();
-    case.write(&folder.path("."));
-    let text = folder.run(&["bag", "repair", case.name]).stdout;
-    let (code, report) = repaired(&folder, &case);
-    let report = report.expect("something is saved");
-    assert_eq!(code, 1);
-    assert_eq!(number(&report["saved"]) + number(&report["lost"]), whole::MESSAGES);
-    for (topic, recorded) in
-        report["topics"].as_array().expect("topics").iter().zip([whole::POSES, whole::POSES, 20])
-    {
-        assert_eq!(number(&topic["saved"]) + number(&topic["lost"]), recorded, "{topic}");
-        let said = format!(
-            "{}: {} saved, {} lost",
-            topic["name"].as_str().expect("text"),
 /// A repair helps where places cannot be read, and not where the messages are not what their type says.
 #[test]
 fn what_a_repair_cannot_change_is_said_by_it_and_a_check_does_not_send_there() {
@@ -358,6 +342,24 @@ fn what_a_repair_cannot_change_is_said_by_it_and_a_check_does_not_send_there() {
     assert!(folder.run(&["bag", "check", "cut.mcap"]).stdout.contains(advice));
 }
 
+#[test]
+fn a_repair_says_in_numbers_what_was_lost() {
+    let flipped = mcap_file::cases().into_iter().find(|case| case.name == "flipped_in_chunk.mcap");
+    let case = flipped.expect("it is made");
+    let folder = Folder::new();
+    case.write(&folder.path("."));
+    let text = folder.run(&["bag", "repair", case.name]).stdout;
+    let (code, report) = repaired(&folder, &case);
+    let report = report.expect("something is saved");
+    assert_eq!(code, 1);
+    assert_eq!(number(&report["saved"]) + number(&report["lost"]), whole::MESSAGES);
+    for (topic, recorded) in
+        report["topics"].as_array().expect("topics").iter().zip([whole::POSES, whole::POSES, 20])
+    {
+        assert_eq!(number(&topic["saved"]) + number(&topic["lost"]), recorded, "{topic}");
+        let said = format!(
+            "{}: {} saved, {} lost",
+            topic["name"].as_str().expect("text"),
             topic["saved"],
             topic["lost"]
         );
@@ -379,6 +381,17 @@ fn a_repair_keeps_topics_times_sequences_and_bytes() {
     assert!(all(&old) == all(&new), "the messages are the same");
 }
 
+/// Such as a file in which every topic that a robot ever had is a channel.
+#[test]
+fn a_repair_of_more_topics_than_metadata_takes_is_refused_at_once() {
+    let folder = Folder::new();
+    let bytes = whole::many_topics(20_000);
+    std::fs::write(folder.path("many.mcap"), bytes).expect("written");
+    let refusal = folder.refusal(&["bag", "repair", "many.mcap"]);
+    assert!(refusal.contains("20000 topics") && refusal.contains("accepted"), "{refusal}");
+    assert_eq!(names(&folder.path(".")), BTreeSet::from(["many.mcap".to_owned()]), "nothing is left behind");
+}
+
 #[test]
 fn a_repair_overwrites_nothing_and_does_not_write_into_the_old_recording() {
     let folder = with_session();
@@ -397,17 +410,6 @@ fn a_repair_overwrites_nothing_and_does_not_write_into_the_old_recording() {
 fn a_repair_that_cannot_write_all_of_it_leaves_nothing_behind() {
     let folder = with_session();
     // As on a full disk: files cannot grow beyond this, and writing says so instead of ending the process.
-/// Such as a file in which every topic that a robot ever had is a channel.
-#[test]
-fn a_repair_of_more_topics_than_metadata_takes_is_refused_at_once() {
-    let folder = Folder::new();
-    let bytes = whole::many_topics(20_000);
-    std::fs::write(folder.path("many.mcap"), bytes).expect("written");
-    let refusal = folder.refusal(&["bag", "repair", "many.mcap"]);
-    assert!(refusal.contains("20000 topics") && refusal.contains("accepted"), "{refusal}");
-    assert_eq!(names(&folder.path(".")), BTreeSet::from(["many.mcap".to_owned()]), "nothing is left behind");
-}
-
     let script = format!(
         "trap '' XFSZ; exec prlimit --fsize=100000 {} bag repair session --output new",
         env!("CARGO_BIN_EXE_rhombus")
