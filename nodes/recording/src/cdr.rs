@@ -3,14 +3,16 @@
 //! Written is XCDR1 little-endian with its four-byte header (`00 01 00 00`), which is what every ROS 2 middleware
 //! writes; big-endian is read too. Values sit at multiples of their size, counted from behind the header.
 //! Reading trusts nothing: any bytes give a value or an error, never a panic, and a length field can make it allocate
-//! no more than the bytes behind it can fill.
+//! no more than the bytes behind it can fill. Bytes behind the last field are left out, as every reader of ROS 2 does:
+//! rmw_fastrtps, asked to serialize without sending, returns the size it estimated. That a message is of another type is
+//! told by the definition in the recording.
 
 use std::fmt;
 
 /// Plain CDR, little-endian. The last two bytes are options nobody uses.
 const HEADER: [u8; 4] = [0x00, 0x01, 0x00, 0x00];
 /// RTPS pads a message to a multiple of four, and some middlewares hand that padding on.
-const PADDING: usize = 3;
+const PADDING_BYTES: usize = 3;
 
 /// A message type of ROS 2: its name and its fields in order.
 pub trait Message: Wire {
@@ -58,20 +60,24 @@ pub fn encode<M: Message>(message: &M) -> Vec<u8> {
     encoder.bytes
 }
 
-/// The message in `bytes`, header included.
+/// The message in `bytes`, header included. What is behind its last field is left out.
 ///
 /// # Errors
-/// When the bytes end early, go on after the message, or cannot be this type. Which field was at fault follows from the
-/// byte position.
+/// When the bytes end early or cannot be this type. Which field was at fault follows from the byte position.
 pub fn decode<M: Message>(bytes: &[u8]) -> Result<M, CdrError> {
+    decode_with_rest(bytes).map(|(message, _)| message)
+}
+
+/// As [`decode`], and how many bytes are behind the last field. Padding to a multiple of four does not count.
+///
+/// # Errors
+/// As [`decode`].
+pub fn decode_with_rest<M: Message>(bytes: &[u8]) -> Result<(M, usize), CdrError> {
     let error = |at, what| CdrError { type_name: M::TYPE_NAME, at, what };
     let mut decoder = Decoder::new(bytes).map_err(|fault| error(0, fault))?;
     let message = M::take(&mut decoder).map_err(|fault| error(decoder.at + HEADER.len(), fault))?;
     let left = decoder.left();
-    if left > PADDING {
-        return Err(error(decoder.at + HEADER.len(), Fault::Trailing { left }));
-    }
-    Ok(message)
+    Ok((message, if left > PADDING_BYTES { left } else { 0 }))
 }
 
 /// Bytes that are not the message they should be.
@@ -114,12 +120,6 @@ pub enum Fault {
     /// Not UTF-8, or without the zero at the end.
     #[error("not a text in UTF-8 that ends with a zero")]
     Text,
-    /// The type is shorter than the message.
-    #[error("{left} bytes are left over")]
-    Trailing {
-        /// Bytes behind the last field.
-        left: usize,
-    },
 }
 
 /// Collects the bytes of a message.

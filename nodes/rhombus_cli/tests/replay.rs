@@ -237,6 +237,21 @@ fn poses_of_older_recordings_give_the_same_answers() {
     assert_eq!(code(&output), 0, "{}", said(&output));
 }
 
+/// As rmw_fastrtps leaves them behind the last field when a program serializes without sending.
+#[test]
+fn bytes_behind_the_last_field_of_a_message_change_no_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let golden = golden(folder.path(), "grasp_and_pull");
+    let longer = folder.path().join("longer");
+    let with_rest = |number: usize, message: &MessageRef<'_>, _: &str| {
+        let rest: &[u8] = if number.is_multiple_of(2) { &[0; 8] } else { &[0xa5; 4] };
+        vec![[message.data, rest].concat()]
+    };
+    changed(&bag("grasp_and_pull"), &longer, with_rest, Topic::clone);
+    let output = replay(longer.to_str().unwrap(), &["--expect", &golden]);
+    assert_eq!(code(&output), 0, "{}", said(&output));
+}
+
 #[test]
 fn what_cannot_be_compared_is_exit_code_2_and_one_sentence() {
     let folder = tempfile::tempdir().unwrap();

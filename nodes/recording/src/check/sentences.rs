@@ -81,6 +81,12 @@ impl TopicReport {
                 self.big_endian
             ));
         }
+        if self.with_rest > 0 {
+            remark(format!(
+                "{} of {messages} messages have bytes behind their last field, which are left out",
+                self.with_rest
+            ));
+        }
         let back = self.periods.log_times_back;
         if back > 0 {
             remark(format!(

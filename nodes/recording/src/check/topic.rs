@@ -70,6 +70,8 @@ pub struct TopicReport {
     pub first_unsound_at: Option<u64>,
     /// Messages in big-endian encoding, which is read as well.
     pub big_endian: u64,
+    /// Messages with bytes behind their last field, which are left out.
+    pub with_rest: u64,
 }
 
 /// A topic while it is being read.
@@ -86,6 +88,7 @@ pub(crate) struct TopicCheck<'a> {
     unsound: u64,
     first_unsound_at: Option<u64>,
     big_endian: u64,
+    with_rest: u64,
 }
 
 impl<'a> TopicCheck<'a> {
@@ -103,6 +106,7 @@ impl<'a> TopicCheck<'a> {
             unsound: 0,
             first_unsound_at: None,
             big_endian: 0,
+            with_rest: 0,
         }
     }
 
@@ -129,6 +133,7 @@ impl<'a> TopicCheck<'a> {
             self.unsound += 1;
             self.first_unsound_at.get_or_insert(self.messages);
         }
+        self.with_rest += u64::from(facts.has_rest);
     }
 
     fn fail(&mut self, reason: String) {
@@ -164,6 +169,7 @@ impl<'a> TopicCheck<'a> {
             unsound: self.unsound,
             first_unsound_at: self.first_unsound_at,
             big_endian: self.big_endian,
+            with_rest: self.with_rest,
         }
     }
 }

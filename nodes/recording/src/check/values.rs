@@ -1,6 +1,6 @@
 //! What a message says about itself, for the types this crate knows.
 
-use crate::cdr::{CdrError, Message, decode};
+use crate::cdr::{CdrError, Message, decode_with_rest};
 use crate::messages::*;
 
 /// A quaternion this far from unit length is taken as a rotation by the model too.
@@ -12,6 +12,8 @@ pub(super) struct Facts {
     pub(super) stamp: Option<Time>,
     /// Its numbers can be what they are called: none is NaN or infinite, rotations are unit quaternions.
     pub(super) sound: bool,
+    /// There are bytes behind its last field.
+    pub(super) has_rest: bool,
 }
 
 /// Decodes a message and looks at it.
@@ -44,8 +46,8 @@ pub(super) fn is_pose(type_name: &str) -> bool {
 }
 
 fn look<M: Message + Say>(data: &[u8]) -> Result<Facts, CdrError> {
-    let message: M = decode(data)?;
-    Ok(Facts { stamp: message.stamp(), sound: message.is_sound() })
+    let (message, rest) = decode_with_rest::<M>(data)?;
+    Ok(Facts { stamp: message.stamp(), sound: message.is_sound(), has_rest: rest > 0 })
 }
 
 /// What is asked of each type.
