@@ -3,7 +3,7 @@
 use mcap::records::op;
 
 use crate::block::{Block, Chunk, Entry, Loaded, MAX_BLOCK_BYTES, Place};
-use crate::compression;
+use crate::compression::{self, messages};
 use crate::error::Error;
 use crate::file::{HEAD, McapFile, MessageHead};
 use crate::records::{Piece, Pieces};
@@ -97,13 +97,15 @@ pub(crate) fn stored(chunk: &Chunk) -> u64 {
 
 /// Loads a block. Broken records in it are left out, and its damage says where. Messages of channels that `is_described`
 /// does not know are left out as well. Of a chunk that is not what was written, the messages are taken that are still
-/// framed as messages; what it is, its damage says.
+/// framed as messages; what it is, its damage says. Messages that were compressed one by one come decompressed; `share` is
+/// of [`compression::share_of_block`].
 pub(crate) fn load(
     file: &McapFile,
     block: &Block,
+    share: u64,
     is_described: impl Fn(u32) -> bool,
 ) -> Result<Loaded, Error> {
-    let (Inside { bytes, fault }, offset, stored, is_compressed) = match &block.place {
+    let (Inside { mut bytes, fault }, offset, stored, is_compressed) = match &block.place {
         Place::Chunk(chunk) => {
             (inside(file, chunk)?, chunk.records.start, stored(chunk), !chunk.compression.is_empty())
         }
@@ -166,6 +168,8 @@ pub(crate) fn load(
         // has a broken time. Messages before would have to come when later ones have gone.
         entries.retain(|entry| (block.start_ns..=block.end_ns).contains(&entry.log_time_ns));
     }
+    let most = compression::most_in_block(stored, share).max(bytes.len() as u64);
+    let refused = messages::decompress_all(&mut bytes, &mut entries, most);
     let damaged = |at: usize, reason: String| match is_compressed {
         false => Error::damaged(file.path(), offset + at as u64, reason),
         true => {
@@ -174,6 +178,12 @@ pub(crate) fn load(
     };
     let mut damage: Vec<Error> = fault.into_iter().collect();
     damage.extend(lost.first.map(|at| damaged(at, lost_inside(lost.count, is_compressed))));
+    damage.extend(refused.first.map(|(at, reason)| {
+        damaged(
+            at,
+            format!("{} messages in zstd compression that are left out; the first {reason}", refused.count),
+        )
+    }));
     damage.extend(undescribed.first.map(|channel| {
         let count = undescribed.count;
         damaged(

@@ -1,6 +1,8 @@
-//! Compressed chunks and compressed files, decompressed up to a bound.
+//! Compressed chunks, messages and files, decompressed up to a bound.
 //!
 //! What a file says about its sizes is never believed: memory and disk grow with what comes out, and stop at the bound.
+
+pub(crate) mod messages;
 
 use std::fs::File;
 use std::io::{BufReader, Read, Write};
@@ -28,6 +30,17 @@ pub(crate) const KNOWN: [&str; 3] = ["", "zstd", "lz4"];
 /// How many bytes the parts of a file of this size may decompress to altogether.
 pub(crate) fn allowance(file_bytes: u64) -> u64 {
     file_bytes.saturating_mul(BYTES_PER_BYTE).saturating_add(ANY_FILE_BYTES)
+}
+
+/// What the messages in each of so many blocks of a file may decompress to, beside what [`most_in_block`] gives for their
+/// own bytes.
+pub(crate) fn share_of_block(blocks: usize) -> u64 {
+    ANY_FILE_BYTES / (blocks as u64).max(1)
+}
+
+/// How many bytes a block may have whose messages are compressed one by one, and which takes `stored` bytes in its file.
+pub(crate) fn most_in_block(stored: u64, share: u64) -> u64 {
+    stored.saturating_mul(BYTES_PER_BYTE).saturating_add(share).min(MAX_BLOCK_BYTES)
 }
 
 /// The inside of a chunk; `size` is what its head says. Where the compression is broken or says another size: what comes

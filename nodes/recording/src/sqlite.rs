@@ -26,7 +26,8 @@ use query::{Ids, Stop};
 use rows::{Collector, Row, Topics};
 use salvage::{Gap, Leaves, Span};
 
-use crate::block::{Block, Entry, FileIndex, Loaded, Place};
+use crate::block::{Block, Entry, FileIndex, Loaded, MAX_BLOCK_BYTES, Place};
+use crate::compression::messages;
 use crate::error::Error;
 use crate::topic::{RecordedTopic, Topic};
 
@@ -104,7 +105,7 @@ impl SqliteFile {
             // What is refused was said when the file was opened.
             let Ok(accepted) = self.topics.accept(row) else { return };
             let begin = bytes.len();
-            match compression::append(data, &mut bytes) {
+            match messages::append(data, &mut bytes, MAX_BLOCK_BYTES) {
                 Ok(()) => entries.push(Entry {
                     log_time_ns: accepted.log_time_ns,
                     publish_time_ns: accepted.log_time_ns,

@@ -37,6 +37,8 @@ enum Storage {
         file: McapFile,
         /// Numbers of the channels that have a topic, ascending.
         channels: Vec<u32>,
+        /// Bytes that compressed messages of a block may have, see [`compression::most_in_block`].
+        share: u64,
     },
     #[cfg(feature = "sqlite")]
     Sqlite(Box<SqliteFile>),
@@ -69,7 +71,8 @@ impl RecordedFile {
             let file = McapFile::open(readable, path)?;
             let index = index::of(&file, compression::allowance(stored))?;
             let channels = index.topics.keys().copied().collect();
-            (Storage::Mcap { file, channels }, index)
+            let share = compression::share_of_block(index.blocks.len());
+            (Storage::Mcap { file, channels, share }, index)
         };
         index.damage.extend(damage);
         Ok((Self { path: path.to_owned(), storage, _decompressed: decompressed }, index))
@@ -78,8 +81,8 @@ impl RecordedFile {
     /// Loads a block of this file.
     pub(crate) fn load(&self, block: &Block) -> Result<Loaded, Error> {
         match &self.storage {
-            Storage::Mcap { file, channels } => {
-                chunk::load(file, block, |channel| channels.binary_search(&channel).is_ok())
+            Storage::Mcap { file, channels, share } => {
+                chunk::load(file, block, *share, |channel| channels.binary_search(&channel).is_ok())
             }
             #[cfg(feature = "sqlite")]
             Storage::Sqlite(file) => Ok(file.load(block)),

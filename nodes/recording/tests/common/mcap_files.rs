@@ -29,6 +29,16 @@ pub(crate) const TYPE: &str = "geometry_msgs/msg/PoseStamped";
 
 /// Poses `numbers` on `/pose`, `per_chunk` in each chunk.
 pub(crate) fn file(shape: Shape, numbers: Range<u64>, per_chunk: u64) -> Vec<u8> {
+    file_of(shape, numbers, per_chunk, |number| encode(&pose(number)))
+}
+
+/// The same with other bytes as the messages.
+pub(crate) fn file_of(
+    shape: Shape,
+    numbers: Range<u64>,
+    per_chunk: u64,
+    data: impl Fn(u64) -> Vec<u8>,
+) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     let options = WriteOptions::new()
         .profile("ros2")
@@ -45,7 +55,7 @@ pub(crate) fn file(shape: Shape, numbers: Range<u64>, per_chunk: u64) -> Vec<u8>
         let time = log_time_ns(number);
         let header =
             MessageHeader { channel_id, sequence: number as u32, log_time: time, publish_time: time };
-        writer.write_to_known_channel(&header, &encode(&pose(number))).unwrap();
+        writer.write_to_known_channel(&header, &data(number)).unwrap();
         if (number - numbers.start + 1).is_multiple_of(per_chunk) {
             writer.flush().unwrap();
         }

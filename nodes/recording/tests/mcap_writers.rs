@@ -1,0 +1,85 @@
+//! MCAP files as other programs write them: what the format allows is read, and nothing of it is damage.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, which may panic")]
+
+mod common;
+
+use std::path::PathBuf;
+
+use common::mcap_files::*;
+use common::*;
+use recording::Recording;
+use recording::cdr::encode;
+use recording::check::{Verdict, check};
+use recording::repair::repair;
+
+/// A file with these bytes, in a directory of its own.
+fn on_disk(bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("written.mcap");
+    std::fs::write(&path, bytes).unwrap();
+    (directory, path)
+}
+
+/// A message as `compression_mode: MESSAGE` stores it.
+fn frame(number: u64) -> Vec<u8> {
+    zstd::bulk::compress(&encode(&pose(number)), 1).unwrap()
+}
+
+#[test]
+fn messages_compressed_one_by_one_are_read_and_repaired_as_they_were_recorded() {
+    for shape in [PLAIN, ZSTD, LOOSE] {
+        for summary in [true, false] {
+            let shape = Shape { summary, ..shape };
+            let (guard, path) = on_disk(&file_of(shape, 0..1000, 150, frame));
+            let report = check(&path);
+            assert_eq!(report.verdict, Verdict::Whole, "{shape:?}: {:?}", report.problems);
+            let output = guard.path().join("repaired");
+            assert!(repair(&path, &output, &|| true).unwrap().all_saved, "{shape:?}");
+            for path in [&path, &output] {
+                let recording = Recording::open(path).unwrap();
+                let (messages, errors) = read(&recording);
+                assert!(errors.is_empty(), "{errors:?}");
+                assert_eq!(numbers(&messages), (0..1000).collect::<Vec<_>>(), "{shape:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_message_whose_compression_is_broken_costs_itself_and_is_said() {
+    let broken = |number| match number {
+        30 => frame(number)[..20].to_vec(),
+        _ => frame(number),
+    };
+    for shape in [PLAIN, ZSTD, LOOSE] {
+        let recording = opened(&file_of(shape, 0..100, 20, broken)).unwrap();
+        let (messages, errors) = read(&recording);
+        assert_eq!(
+            numbers(&messages),
+            (0..100).filter(|number| *number != 30).collect::<Vec<_>>(),
+            "{shape:?}"
+        );
+        let errors: Vec<_> = errors.iter().map(ToString::to_string).collect();
+        assert!(
+            errors.len() == 1 && errors[0].contains("1 message") && errors[0].contains("zstd"),
+            "{errors:?}"
+        );
+    }
+}
+
+/// Each decompresses to 60 MB: a minute for all of them.
+#[test]
+fn of_messages_that_are_bombs_a_file_gives_no_more_than_its_allowance() {
+    let bomb = zstd::bulk::compress(&vec![0; 60_000_000], 1).unwrap();
+    let (_guard, path) = on_disk(&file_of(PLAIN, 0..2000, 1, |_| bomb.clone()));
+    let recording = Recording::open(&path).unwrap();
+    let mut messages = recording.stored_messages();
+    let (mut bytes, mut refused) = (0, 0);
+    while let Some(message) = messages.next_ref() {
+        match message {
+            Ok(message) => bytes += message.data.len(),
+            Err(_) => refused += 1,
+        }
+    }
+    assert!(bytes <= 3 << 30 && refused > 1900, "{bytes} bytes, {refused} refused");
+}
