@@ -1,7 +1,7 @@
 //! Where everything is in an MCAP file: topics, counts, and the blocks that hold the messages.
 //!
-//! A closed file says its topics and counts in a summary at its end. Where there is none, or it does not agree with what is
-//! there, the blocks themselves are read once. Either way the file is walked from the front, head by head, so that what
+//! A closed file says its topics and counts in a summary at its end. Where there is none, it does not count by channel, or
+//! it does not agree with what is there, the blocks themselves are read once. Either way the file is walked from the front, head by head, so that what
 //! an index fails to mention is found as well; and behind a broken place the walk goes on with the next record there is.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,7 +32,9 @@ pub(crate) fn of(file: &McapFile, allowance: u64) -> Result<FileIndex, Error> {
     let mut view = View::new(file);
     let ending = summary::read(file)?;
     let mut lie = None;
-    if let Ending::Whole(summary) = &ending {
+    if let Ending::Whole(summary) = &ending
+        && summary.counts_channels()
+    {
         let mut walk = Walk::new(file, allowance, Some(summary));
         walk.go(&mut view)?;
         if walk.agrees_with(summary) {

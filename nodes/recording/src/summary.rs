@@ -27,6 +27,14 @@ pub(crate) struct Summary {
     pub(crate) is_checked: bool,
 }
 
+impl Summary {
+    /// Whether it says of each channel how many messages it has; writers may leave that out.
+    pub(crate) fn counts_channels(&self) -> bool {
+        let counts = self.statistics.channel_message_counts.values();
+        counts.fold(0, |sum: u64, count| sum.saturating_add(*count)) == self.statistics.message_count
+    }
+}
+
 /// What is found at the end of a file.
 pub(crate) enum Ending {
     Whole(Box<Summary>),

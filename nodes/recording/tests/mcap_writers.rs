@@ -7,10 +7,11 @@ use std::path::PathBuf;
 
 use common::mcap_files::*;
 use common::*;
-use recording::Recording;
+use mcap::records::op;
 use recording::cdr::encode;
 use recording::check::{Verdict, check};
 use recording::repair::repair;
+use recording::{Playback, Recording};
 
 /// A file with these bytes, in a directory of its own.
 fn on_disk(bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
@@ -82,4 +83,35 @@ fn of_messages_that_are_bombs_a_file_gives_no_more_than_its_allowance() {
         }
     }
     assert!(bytes <= 3 << 30 && refused > 1900, "{bytes} bytes, {refused} refused");
+}
+
+/// `channel_message_counts` of a file is empty where its writer did not count: MCAP allows that.
+fn without_channel_counts(mut bytes: Vec<u8>) -> Vec<u8> {
+    let (_, place) = records(&bytes).into_iter().find(|(kind, _)| *kind == op::STATISTICS).unwrap();
+    let counts = place.start + 9 + 8 + 2 + 4 * 4 + 8 + 8;
+    bytes.splice(counts..place.end, [0; 4]);
+    bytes[place.start + 1..place.start + 9]
+        .copy_from_slice(&((counts + 4 - place.start - 9) as u64).to_le_bytes());
+    // Neither summary offsets nor a checksum, which would be wrong now.
+    let footer = bytes.len() - 8 - 20;
+    bytes[footer + 8..footer + 20].fill(0);
+    bytes
+}
+
+#[test]
+fn where_the_summary_does_not_count_by_channel_the_messages_are_counted() {
+    for shape in [PLAIN, ZSTD, LOOSE] {
+        let bytes = without_channel_counts(file_of(shape, 0..1000, 150, |number| encode(&pose(number))));
+        let (_guard, path) = on_disk(&bytes);
+        let report = check(&path);
+        assert_eq!(
+            (report.verdict, report.topics[0].recorded),
+            (Verdict::Whole, 1000),
+            "{:?}",
+            report.problems
+        );
+        let recording = Recording::open(&path).unwrap();
+        assert_eq!(recording.topics()[0].message_count, 1000, "{shape:?}");
+        assert_eq!(recording.playback(&Playback::default()).count(), 1000, "{shape:?}");
+    }
 }
