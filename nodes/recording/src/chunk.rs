@@ -23,6 +23,26 @@ pub(crate) struct ChunkHead {
     pub(crate) chunk: Chunk,
 }
 
+/// Start and end of a chunk without messages: of the format, of a recorder that begins with the earliest and latest times
+/// it has not seen, and of `rosbags`, which says what rosbag2 does of a recording without messages.
+const NO_TIMES_NS: [(u64, u64); 3] = [(0, 0), (u64::MAX, 0), (i64::MAX as u64, 0)];
+
+impl ChunkHead {
+    /// Whether its times are those of messages.
+    pub(crate) fn has_times(&self) -> bool {
+        self.start_ns <= self.end_ns && !self.is_without_messages()
+    }
+
+    /// Whether they can be those of a chunk.
+    pub(crate) fn has_possible_times(&self) -> bool {
+        self.start_ns <= self.end_ns || self.is_without_messages()
+    }
+
+    fn is_without_messages(&self) -> bool {
+        NO_TIMES_NS.contains(&(self.start_ns, self.end_ns))
+    }
+}
+
 /// Reads the head of a chunk whose record begins at `offset` of the file, from the bytes there. `None` when they are none.
 /// The length in front of the record is not looked at.
 pub(crate) fn head_of(bytes: &[u8], offset: u64) -> Option<ChunkHead> {

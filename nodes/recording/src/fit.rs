@@ -149,7 +149,7 @@ impl<'a> View<'a> {
         let head = self.beginning_of_chunk(offset)?;
         Ok(head.and_then(|head| {
             let end = head.chunk.records.end;
-            (end <= file_len && head.start_ns <= head.end_ns).then_some((head, end))
+            (end <= file_len && head.has_possible_times()).then_some((head, end))
         }))
     }
 
@@ -282,7 +282,7 @@ pub(crate) fn size_of_content(opcode: u8, content: &[u8]) -> Option<u64> {
         }
         op::CHUNK => {
             let chunk = chunk::head_in(content, 0)?;
-            return (chunk.start_ns <= chunk.end_ns).then_some(chunk.chunk.records.end);
+            return chunk.has_possible_times().then_some(chunk.chunk.records.end);
         }
         op::MESSAGE_INDEX => {
             fields.skip(2)?;

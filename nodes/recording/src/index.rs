@@ -256,6 +256,8 @@ impl<'a> Walk<'a> {
     }
 
     fn take_chunk(&mut self, offset: u64, end: u64, head: ChunkHead) -> Result<u64, Error> {
+        // Those of a chunk without messages can be anything, also where there are messages.
+        let has_times = head.has_times() && !head.chunk.records.is_empty();
         let ChunkHead { start_ns, end_ns, chunk } = head;
         self.chunks += 1;
         self.end_of_indexes();
@@ -285,8 +287,6 @@ impl<'a> Walk<'a> {
             self.allowance = left;
         }
         let indexed = self.summary.and_then(|summary| Some((summary, summary.chunks.get(&offset)?)));
-        // Times that are zero are those of a chunk without messages, as in a recording that has none.
-        let has_times = (start_ns, end_ns) != (0, 0) && !chunk.records.is_empty();
         let is_as_indexed = indexed.is_some_and(|(_, index)| {
             index.message_start_time == start_ns && index.message_end_time == end_ns && has_times
         });

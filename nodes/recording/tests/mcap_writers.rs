@@ -115,3 +115,39 @@ fn where_the_summary_does_not_count_by_channel_the_messages_are_counted() {
         assert_eq!(recording.playback(&Playback::default()).count(), 1000, "{shape:?}");
     }
 }
+
+/// The Python library `rosbags` gives a chunk without messages the times of a recording without messages.
+#[test]
+fn a_chunk_without_messages_may_end_before_it_begins() {
+    let record =
+        |kind: u8, content: &[u8]| [&[kind], &(content.len() as u64).to_le_bytes()[..], content].concat();
+    for (start_ns, end_ns) in [(i64::MAX as u64, 0_u64), (u64::MAX, 0), (0, 0)] {
+        let empty = file(Shape { summary: false, ..LOOSE }, 0..0, 1);
+        let definitions = records(&empty)
+            .into_iter()
+            .filter(|(kind, _)| [op::SCHEMA, op::CHANNEL].contains(kind))
+            .flat_map(|(_, place)| empty[place].to_vec())
+            .collect::<Vec<_>>();
+        let size = (definitions.len() as u64).to_le_bytes();
+        let head =
+            [&start_ns.to_le_bytes()[..], &end_ns.to_le_bytes(), &size, &[0; 4], &[0; 4], &size].concat();
+        let header = records(&empty)[0].1.clone();
+        let bytes = [
+            mcap::MAGIC,
+            &empty[header],
+            &record(op::CHUNK, &[head, definitions].concat()),
+            &record(op::DATA_END, &[0; 4]),
+            &record(op::FOOTER, &[0; 20]),
+            mcap::MAGIC,
+        ];
+        let (guard, path) = on_disk(&bytes.concat());
+        let report = check(&path);
+        assert_eq!(
+            (report.verdict, &report.problems[..]),
+            (Verdict::Whole, &[][..]),
+            "{start_ns} to {end_ns}"
+        );
+        assert_eq!(report.topics[0].name, "/pose");
+        assert!(repair(&path, &guard.path().join("repaired"), &|| true).unwrap().all_saved);
+    }
+}
