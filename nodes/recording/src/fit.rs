@@ -233,17 +233,14 @@ impl Default for ChannelSet {
 }
 
 impl ChannelSet {
-    pub(crate) fn insert(&mut self, channel: u16) {
-        if let Some(is_in) = self.0.get_mut(usize::from(channel)) {
-            *is_in = true;
-        }
+    /// Whether it was not in it.
+    pub(crate) fn insert(&mut self, channel: u16) -> bool {
+        self.0.get_mut(usize::from(channel)).is_some_and(|is_in| !std::mem::replace(is_in, true))
     }
 
-    /// The channel that is described, if it is one.
-    pub(crate) fn insert_described(&mut self, definition: &Definition<'_>) {
-        if let Definition::Channel { id, .. } = definition {
-            self.insert(*id);
-        }
+    /// The channel that is described, if it is one; whether it was not in it.
+    pub(crate) fn insert_described(&mut self, definition: &Definition<'_>) -> bool {
+        matches!(definition, Definition::Channel { id, .. } if self.insert(*id))
     }
 
     pub(crate) fn contains(&self, channel: u16) -> bool {

@@ -49,9 +49,17 @@ pub(crate) fn of(file: &McapFile, allowance: u64) -> Result<FileIndex, Error> {
         && summary.is_checked
     {
         walk.definitions = summary.definitions.clone();
-        walk.definitions.channels().for_each(|id| walk.channels.insert(id));
+        for id in summary.definitions.channels() {
+            walk.channels.insert(id);
+        }
     }
     walk.go(&mut view)?;
+    if walk.is_described_late {
+        let mut again = Walk::new(file, allowance, None);
+        again.channels = walk.channels;
+        again.go(&mut View::new(file))?;
+        walk = again;
+    }
     match ending {
         Ending::Whole(summary) => {
             walk.definitions.complete_from(&summary.definitions);
@@ -89,6 +97,9 @@ struct Walk<'a> {
     /// The channels heard of so far.
     channels: ChannelSet,
     counts: BTreeMap<u16, u64>,
+    /// Something is broken, and behind it a channel is described: its messages before may have been passed over.
+    is_described_late: bool,
+    has_gap: bool,
     /// Where the last chunk begins, and those of its channels of which no message index came yet.
     unseen: Option<(u64, Vec<u32>)>,
     /// The first chunk of which the summary lists other channels than the message indexes behind it.
@@ -104,7 +115,9 @@ struct Walk<'a> {
 impl<'a> Walk<'a> {
     fn new(file: &'a McapFile, allowance: u64, summary: Option<&'a Summary>) -> Self {
         let mut channels = ChannelSet::default();
-        summary.iter().flat_map(|summary| summary.definitions.channels()).for_each(|id| channels.insert(id));
+        for id in summary.iter().flat_map(|summary| summary.definitions.channels()) {
+            channels.insert(id);
+        }
         Self {
             file,
             summary,
@@ -112,6 +125,8 @@ impl<'a> Walk<'a> {
             definitions: Definitions::default(),
             doubtful: Definitions::default(),
             channels,
+            is_described_late: false,
+            has_gap: false,
             unseen: None,
             lie: None,
             counts: BTreeMap::new(),
@@ -129,6 +144,7 @@ impl<'a> Walk<'a> {
         let mut offset = magic;
         if view.bytes(0, magic)? != mcap::MAGIC {
             self.note_at(0, || "the file does not begin with the MCAP magic bytes".to_owned());
+            self.has_gap = true;
             // Bytes may be missing or too many here.
             let is_whole_behind = matches!(view.fit(magic)?, Fit::Sure(_));
             match if is_whole_behind { Some(magic) } else { view.search(0, &self.channels)? } {
@@ -164,6 +180,7 @@ impl<'a> Walk<'a> {
             self.note_at(offset, || "a chunk whose record has a wrong kind or length".to_owned());
             return self.take_chunk(offset, end, head);
         }
+        self.has_gap = true;
         let next = view.search(offset + 1, &self.channels)?;
         let end_of_damage = next.unwrap_or(self.file.len());
         if let Fit::Maybe(end) = fit
@@ -234,7 +251,7 @@ impl<'a> Walk<'a> {
                 let definition = Definition::parse(opcode, record.get(HEAD as usize..).unwrap_or_default());
                 match definition {
                     Ok(definition) => {
-                        self.channels.insert_described(&definition);
+                        self.hear_of(&definition);
                         self.definitions.add(definition);
                     }
                     Err(reason) => self.note_at(offset, || of_kind(opcode, reason)),
@@ -303,6 +320,11 @@ impl<'a> Walk<'a> {
         Ok(end)
     }
 
+    fn hear_of(&mut self, definition: &Definition<'_>) {
+        let is_new = self.channels.insert_described(definition);
+        self.is_described_late |= is_new && self.has_gap;
+    }
+
     /// Takes the message index of a channel, which stands behind its chunk.
     fn take_message_index(&mut self, channel: Option<u16>) {
         if let Some((chunk, unseen)) = &mut self.unseen {
@@ -346,7 +368,7 @@ impl<'a> Walk<'a> {
                 Piece::Record(record) if matches!(record.opcode, op::SCHEMA | op::CHANNEL) => {
                     match Definition::parse(record.opcode, record.content) {
                         Ok(definition) => {
-                            self.channels.insert_described(&definition);
+                            self.hear_of(&definition);
                             let is_sure = fault.is_none();
                             if is_sure { &mut self.definitions } else { &mut self.doubtful }.add(definition);
                         }

@@ -494,6 +494,21 @@ fn wrong_magic_at_either_end_is_said_and_costs_nothing() {
     }
 }
 
+/// Of a file without chunks, types and channels are at its beginning, and again in the summary at its end.
+#[test]
+fn messages_outside_of_chunks_are_read_where_the_beginning_is_missing() {
+    let whole = file(LOOSE, 0..1000, 1);
+    let row: Vec<_> = records(&whole).into_iter().filter(|(kind, _)| *kind == op::MESSAGE).collect();
+    // What is left at the front is nothing, the magic bytes, or these and the head of a record.
+    for left in [0, 8, 30] {
+        let mut bytes = whole.clone();
+        bytes.drain(left..row[20].1.start + 5);
+        let (found, damage, errors) = contents(&bytes);
+        assert_eq!(found, (21..1000).collect::<Vec<_>>(), "{left}: {damage:?}");
+        assert!(!damage.is_empty() && errors.is_empty(), "{left}: {damage:?} {errors:?}");
+    }
+}
+
 #[test]
 fn a_summary_that_lies_is_not_believed() {
     let whole = file(PLAIN, 0..500, 100);
