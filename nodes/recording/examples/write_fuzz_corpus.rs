@@ -8,6 +8,8 @@ use recording::cdr::encode;
 use recording::messages::*;
 
 const START_NS: u64 = 1_700_000_000_000_000_000;
+/// Brackets that take a YAML parser a second.
+const DEEP: usize = 40_000;
 const POSE: &str = "std_msgs/Header header\ngeometry_msgs/Pose pose\n\
     ================================================================================\n\
     MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
@@ -33,6 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         save("mcap", name, &bytes)?;
         save("mcap", &format!("{name}_cut"), bytes.get(..bytes.len() * 2 / 3).unwrap_or_default())?;
     }
+    save("mcap", "deep_qos", &deep_qos()?)?;
     save("sqlite", "one_topic", &database()?)?;
     for (name, text) in metadata() {
         save("metadata", name, text.as_bytes())?;
@@ -96,6 +99,21 @@ fn file(compression: Option<Compression>, chunks: bool, summary: bool) -> Result
     Ok(bytes.into_inner())
 }
 
+/// One channel whose quality of service is brackets.
+fn deep_qos() -> Result<Vec<u8>, mcap::McapError> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut writer = WriteOptions::new().profile("ros2").library("").use_chunks(false).create(&mut bytes)?;
+    let schema = writer.add_schema("std_msgs/msg/Bool", "ros2msg", b"bool data")?;
+    let qos = format!("- a: {}", "[".repeat(DEEP));
+    let channel_id =
+        writer.add_channel(schema, "/a", "cdr", &[("offered_qos_profiles".to_owned(), qos)].into())?;
+    let header = MessageHeader { channel_id, sequence: 0, log_time: START_NS, publish_time: START_NS };
+    writer.write_to_known_channel(&header, &encode(&Bool::default()))?;
+    writer.finish()?;
+    drop(writer);
+    Ok(bytes.into_inner())
+}
+
 /// Small pages, so that a few rows fill several.
 fn database() -> Result<Vec<u8>, Box<dyn std::error::Error>> {
     let file = tempfile::NamedTempFile::new()?;
@@ -134,5 +152,8 @@ fn metadata() -> Vec<(&'static str, String)> {
         ("version_4", text(4, numbers, "")),
         ("version_5", text(5, numbers, "  files: []\n")),
         ("version_9", text(9, "[]", "  files: []\n  custom_data: ~\n  ros_distro: jazzy\n")),
+        ("deep", text(9, "[]", &format!("  files: []\n  custom_data: {}", "[".repeat(DEEP)))),
+        ("aliases", text(9, "&a [*b, *b]", &format!("  custom_data: [{}]\n", "*a, ".repeat(1000)))),
+        ("directives", format!("{}---\n{}", "%TAG !a! b\n".repeat(1000), text(9, "[]", ""))),
     ]
 }

@@ -39,6 +39,7 @@ mod summary;
 mod topic;
 mod variants;
 mod writer;
+mod yaml;
 
 pub use compare::{
     Bin, Change, Comparison, Counts, Divergence, FieldOutcome, Outcome, Presence, Signal, ToleranceError,

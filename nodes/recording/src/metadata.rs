@@ -10,6 +10,7 @@ use serde_yaml::Value;
 use crate::error::Error;
 use crate::qos::{self, Qos};
 use crate::reader::Recording;
+use crate::yaml;
 
 /// The file's name in the directory of a recording.
 pub(crate) const FILE_NAME: &str = "metadata.yaml";
@@ -43,8 +44,9 @@ pub(crate) struct Metadata {
     pub(crate) relative_file_paths: Vec<String>,
     #[serde(default)]
     pub(crate) files: Vec<FileInformation>,
-    #[serde(default)]
-    pub(crate) custom_data: Option<Value>,
+    /// Whatever the recorder was told; nothing here reads it.
+    #[serde(default, skip_deserializing)]
+    pub(crate) custom_data: (),
     #[serde(default)]
     pub(crate) ros_distro: String,
 }
@@ -114,7 +116,7 @@ impl Metadata {
                 duration,
                 message_count,
             }],
-            custom_data: None,
+            custom_data: (),
             ros_distro: ros_distro.to_owned(),
         }
     }
@@ -180,7 +182,8 @@ impl Metadata {
 
     /// The content of a `metadata.yaml` that lies at `path`.
     pub(crate) fn parse(bytes: &[u8], path: &Path) -> Result<Self, Error> {
-        let root: Root = serde_yaml::from_slice(bytes).map_err(invalid(path))?;
+        let text = std::str::from_utf8(bytes).map_err(invalid(path))?;
+        let root: Root = yaml::from_str(text).map_err(invalid(path))?;
         let metadata = root.rosbag2_bagfile_information;
         if (1..=NEWEST).contains(&metadata.version) {
             Ok(metadata)
@@ -250,7 +253,7 @@ fn counted<'a>(
     counts
 }
 
-fn invalid(path: &Path) -> impl FnOnce(serde_yaml::Error) -> Error {
+fn invalid<E: std::fmt::Display>(path: &Path) -> impl FnOnce(E) -> Error {
     move |error| Error::Metadata { path: path.to_owned(), reason: error.to_string() }
 }
 

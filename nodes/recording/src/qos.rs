@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
+use crate::yaml::{self, YamlError};
+
 /// Defines a policy with its word and its `rmw` number; both are read, the word is written.
 macro_rules! policy {
     ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $word:literal | $number:literal),+ $(,)? }) => {
@@ -184,8 +186,8 @@ pub(crate) fn to_yaml_of_numbers(profiles: &[Qos]) -> Result<String, serde_yaml:
 }
 
 /// The inverse of [`to_yaml`] for every metadata version; an empty text is an empty list.
-pub(crate) fn from_yaml(text: &str) -> Result<Vec<Qos>, serde_yaml::Error> {
-    if text.trim().is_empty() { Ok(Vec::new()) } else { serde_yaml::from_str(text) }
+pub(crate) fn from_yaml(text: &str) -> Result<Vec<Qos>, YamlError> {
+    if text.trim().is_empty() { Ok(Vec::new()) } else { yaml::from_str(text) }
 }
 
 /// For `offered_qos_profiles` in `metadata.yaml`: a list in version 9, a YAML text inside the YAML before, nothing in 1-3.

@@ -128,6 +128,37 @@ fn metadata_that_cannot_be_read_stops_nothing_and_is_named() {
     }
 }
 
+/// Each takes a YAML parser more than half a minute, or gigabytes.
+#[test]
+fn metadata_that_would_take_minutes_is_refused_in_time() {
+    let whole = metadata(9, 100, &["session_0.mcap"]);
+    let custom = |text: &str| whole.replace("operator: one", text);
+    let bombs = [
+        (custom(&format!("operator: {}", "[".repeat(200_000))), "nested deeper than 64"),
+        (
+            custom(&format!(
+                "operator: &a [{}]\n    others: [{}]",
+                "x,".repeat(700_000),
+                "*a,".repeat(500_000)
+            )),
+            "aliases",
+        ),
+        (
+            (0..200_000).map(|number| format!("%TAG !{number}! a\n")).collect::<String>() + "---\n" + &whole,
+            "directives",
+        ),
+    ];
+    for (text, reason) in bombs {
+        let (_guard, path) =
+            directory(&[("session_0.mcap", &file(PLAIN, 0..100, 50)), ("metadata.yaml", text.as_bytes())]);
+        let begun = std::time::Instant::now();
+        let (messages, damage, disagreements) = found(&path);
+        assert!(begun.elapsed().as_secs() < 10, "{reason}: {:?}", begun.elapsed());
+        assert_eq!((messages.len(), damage.len()), (100, 0));
+        assert!(disagreements.len() == 1 && disagreements[0].contains(reason), "{disagreements:?}");
+    }
+}
+
 #[test]
 fn where_metadata_and_files_disagree_the_files_are_right_and_the_difference_is_named() {
     let text = metadata(9, 77, &["session_0.mcap"]).replace("name: /pose", "name: /other");

@@ -468,6 +468,34 @@ fn a_text_inside_a_definition_that_says_it_has_gigabytes_takes_no_memory() {
 }
 
 /// The most address space this process had, kB.
+/// Half a minute for a YAML parser. A QoS nobody can read is one that is not known.
+#[test]
+fn a_qos_of_brackets_takes_no_time() {
+    let text = format!("- a: {}", "[".repeat(262_000));
+    let qos = [b"offered_qos_profiles".as_slice(), text.as_bytes()]
+        .map(|part| [&(part.len() as u32).to_le_bytes()[..], part].concat());
+    let whole = file(LOOSE, 0..100, 1);
+    let mut bytes = mcap::MAGIC.to_vec();
+    for (kind, place) in
+        records(&whole).into_iter().filter(|(kind, _)| *kind <= op::MESSAGE && *kind != op::FOOTER)
+    {
+        match kind {
+            // Ends with the length of its metadata, of which there are none.
+            op::CHANNEL => {
+                let content = &whole[place.start + 9..place.end - 4];
+                let size = (qos.concat().len() as u32).to_le_bytes();
+                bytes.extend(record(kind, &[content, &size, &qos.concat()].concat()));
+            }
+            _ => bytes.extend(&whole[place]),
+        }
+    }
+    let begun = std::time::Instant::now();
+    let recording = opened(&bytes).unwrap();
+    assert!(begun.elapsed().as_secs() < 10, "{:?}", begun.elapsed());
+    assert!(recording.topics()[0].topic.offered_qos.is_empty());
+    assert_eq!(numbers(&read(&recording).0), (0..100).collect::<Vec<_>>());
+}
+
 fn peak_kb() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap();
     let line = status.lines().find(|line| line.starts_with("VmPeak")).unwrap();
