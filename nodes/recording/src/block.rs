@@ -22,6 +22,8 @@ pub(crate) struct FileIndex {
     pub(crate) blocks: Vec<Block>,
     /// What had to be left out, and why.
     pub(crate) damage: Vec<Error>,
+    /// What its chunks or messages decompress to, as far as that counts.
+    pub(crate) decompressed_bytes: u64,
     /// The counts are those that its recorder wrote, and not of what is found.
     pub(crate) is_counted: bool,
 }

@@ -15,11 +15,11 @@ use crate::error::Error;
 
 /// The largest window of a zstd frame, 2 to this power: that of a frame made with `zstd -19`, and no more memory than a block.
 pub(crate) const WINDOW_LOG: u32 = 26;
-/// Bytes that the chunks of a file may decompress to altogether, whatever its size ...
-const ANY_FILE_BYTES: u64 = 1 << 30;
-/// ... those of a file that is compressed as a whole, which lie on a disk and can be a hundred million records ...
-const ANY_WHOLE_FILE_BYTES: u64 = 1 << 28;
-/// ... and for each of its own bytes. Together they stop a bomb long before it fills a disk or takes minutes.
+/// Bytes that the chunks of a recording may decompress to altogether, whatever the sizes of its files ...
+const ANY_CHUNKS_BYTES: u64 = 1 << 30;
+/// ... those of files that are compressed as a whole, which lie on a disk and can be a hundred million records ...
+const ANY_WHOLE_FILES_BYTES: u64 = 1 << 28;
+/// ... and for each byte of a file. Together they stop a bomb long before it fills a disk or takes minutes.
 const BYTES_PER_BYTE: u64 = 100;
 /// Read and written at once.
 const PIECE_BYTES: usize = 1 << 20;
@@ -27,15 +27,42 @@ const PIECE_BYTES: usize = 1 << 20;
 /// The compressions of chunks that are read.
 pub(crate) const KNOWN: [&str; 3] = ["", "zstd", "lz4"];
 
-/// How many bytes the parts of a file of this size may decompress to altogether.
-pub(crate) fn allowance(file_bytes: u64) -> u64 {
-    file_bytes.saturating_mul(BYTES_PER_BYTE).saturating_add(ANY_FILE_BYTES)
+/// What the files of a recording may decompress to.
+pub(crate) struct Allowance {
+    files: usize,
+    /// For chunks and messages.
+    pub(crate) parts: Pool,
+    /// For files that are compressed as a whole.
+    pub(crate) whole_files: Pool,
 }
 
-/// What the messages in each of so many blocks of a file may decompress to, beside what [`most_in_block`] gives for their
-/// own bytes.
-pub(crate) fn share_of_block(blocks: usize) -> u64 {
-    ANY_FILE_BYTES / (blocks as u64).max(1)
+/// Bytes for all files of a recording beside those that each has for its own bytes.
+pub(crate) struct Pool(u64);
+
+impl Allowance {
+    /// For a recording of so many files.
+    pub(crate) fn new(files: usize) -> Self {
+        Self { files, parts: Pool(ANY_CHUNKS_BYTES), whole_files: Pool(ANY_WHOLE_FILES_BYTES) }
+    }
+
+    /// What the messages in each of so many blocks of a file may decompress to, beside what [`most_in_block`] gives for
+    /// their own bytes.
+    pub(crate) fn share_of_block(&self, blocks: usize) -> u64 {
+        ANY_CHUNKS_BYTES / (self.files.max(1) as u64).saturating_mul(blocks.max(1) as u64)
+    }
+}
+
+impl Pool {
+    /// How many bytes a file of this size may decompress to.
+    pub(crate) fn of(&self, file_bytes: u64) -> u64 {
+        file_bytes.saturating_mul(BYTES_PER_BYTE).saturating_add(self.0)
+    }
+
+    /// Takes what a file of this size did decompress to.
+    pub(crate) fn pay(&mut self, file_bytes: u64, decompressed: u64) {
+        let own = file_bytes.saturating_mul(BYTES_PER_BYTE);
+        self.0 = self.0.saturating_sub(decompressed.saturating_sub(own));
+    }
 }
 
 /// How many bytes a block may have whose messages are compressed one by one, and which takes `stored` bytes in its file.
@@ -82,7 +109,7 @@ pub(crate) fn unknown(compression: &str) -> String {
 
 /// Decompresses a file that rosbag2 compressed as a whole. The temporary file goes with the value; its name has that of the
 /// original in it. What came out before a broken place is kept, with the error.
-pub(crate) fn whole_file(path: &Path) -> Result<(TempPath, Option<Error>), Error> {
+pub(crate) fn whole_file(path: &Path, pool: &mut Pool) -> Result<(TempPath, Option<Error>), Error> {
     let source = File::open(path).map_err(Error::io(path, "open"))?;
     let length = source.metadata().map_err(Error::io(path, "open"))?.len();
     let name = path.file_stem().unwrap_or_default();
@@ -104,7 +131,7 @@ pub(crate) fn whole_file(path: &Path) -> Result<(TempPath, Option<Error>), Error
         Err(error) => return Err(broken(0, &error)),
     };
     decoder.window_log_max(WINDOW_LOG + 1).map_err(Error::io(path, "decompress"))?;
-    let most = allowance(length) - ANY_FILE_BYTES + ANY_WHOLE_FILE_BYTES;
+    let most = pool.of(length);
     let mut piece = vec![0; PIECE_BYTES];
     let mut written = 0_u64;
     let damage = loop {
@@ -112,7 +139,7 @@ pub(crate) fn whole_file(path: &Path) -> Result<(TempPath, Option<Error>), Error
             Ok(0) => break None,
             Ok(count) if written + count as u64 > most => {
                 let reason = format!(
-                    "decompresses to more than the {most} bytes that are accepted of a file of its size"
+                    "decompresses to more than the {most} bytes that are accepted of it in a recording of this size"
                 );
                 break Some(Error::damaged(path, 0, reason));
             }
@@ -126,6 +153,7 @@ pub(crate) fn whole_file(path: &Path) -> Result<(TempPath, Option<Error>), Error
             Err(error) => break Some(broken(written, &error)),
         }
     };
+    pool.pay(length, written);
     // Its handle is not needed: a recording can have more parts than a process may have open files.
     Ok((temporary.into_temp_path(), damage))
 }

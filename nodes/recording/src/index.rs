@@ -89,8 +89,9 @@ struct Walk<'a> {
     file: &'a McapFile,
     /// What the file says about itself, as long as it is believed.
     summary: Option<&'a Summary>,
-    /// Bytes that chunks may still decompress to.
+    /// Bytes that chunks may still decompress to, and what they decompress to so far.
     allowance: u64,
+    decompressed: u64,
     definitions: Definitions,
     /// From chunks that are not what was written: what is nowhere else.
     doubtful: Definitions,
@@ -122,6 +123,7 @@ impl<'a> Walk<'a> {
             file,
             summary,
             allowance,
+            decompressed: 0,
             definitions: Definitions::default(),
             doubtful: Definitions::default(),
             channels,
@@ -294,14 +296,16 @@ impl<'a> Walk<'a> {
             return Ok(chunk.records.start);
         }
         if !is_plain {
-            let Some(left) = self.allowance.checked_sub(chunk.size.min(MAX_BLOCK_BYTES)) else {
+            let size = chunk.size.min(MAX_BLOCK_BYTES);
+            let Some(left) = self.allowance.checked_sub(size) else {
                 self.note_at(offset, || {
-                    "a chunk behind others that decompress to more than is accepted of a file of this size"
+                    "a chunk behind others that decompress to more than is accepted of a recording of this size"
                         .to_owned()
                 });
                 return Ok(end);
             };
             self.allowance = left;
+            self.decompressed = self.decompressed.saturating_add(size);
         }
         let indexed = self.summary.and_then(|summary| Some((summary, summary.chunks.get(&offset)?)));
         let is_as_indexed = indexed.is_some_and(|(_, index)| {
@@ -498,7 +502,13 @@ impl<'a> Walk<'a> {
         let (topics, left_out) = self.definitions.topics(&self.counts);
         let left_out = left_out.map(|reason| self.damaged(end, reason));
         self.damage.extend(left_out);
-        FileIndex { topics, blocks: self.blocks, damage: self.damage, is_counted: false }
+        FileIndex {
+            topics,
+            blocks: self.blocks,
+            damage: self.damage,
+            decompressed_bytes: self.decompressed,
+            is_counted: false,
+        }
     }
 }
 

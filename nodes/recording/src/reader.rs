@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::block::{Entry, FileIndex, Loaded};
+use crate::compression::Allowance;
 use crate::directory::Directory;
 use crate::error::Error;
 use crate::metadata::Metadata;
@@ -85,8 +86,9 @@ impl Recording {
             has_missing_parts: directory.has_missing_parts,
         };
         let mut variants = Variants::default();
+        let mut allowance = Allowance::new(directory.files.len());
         for file_path in directory.files {
-            match RecordedFile::open(&file_path) {
+            match RecordedFile::open(&file_path, &mut allowance) {
                 Ok((file, index)) => recording.add(&mut variants, file, index),
                 Err(error) => recording.damage.push(error),
             }

@@ -69,11 +69,12 @@ struct Broken {
 
 impl SqliteFile {
     /// Opens the database at `readable` and finds out where its messages are. `path` is its name in what is said about it.
+    /// The messages may take `allowance` bytes in memory altogether.
     ///
     /// # Errors
     /// When nothing can be read from it: the system refuses, it is no database, or one without messages as rosbag2 stores
     /// them. Damage is noted in the index instead.
-    pub(crate) fn open(readable: &Path, path: &Path) -> Result<(Self, FileIndex), Error> {
+    pub(crate) fn open(readable: &Path, path: &Path, allowance: u64) -> Result<(Self, FileIndex), Error> {
         let not_a_recording = |reason: String| Error::NotARecording { path: path.to_owned(), reason };
         let metadata = readable.metadata().map_err(Error::io(path, "open"))?;
         if !metadata.is_file() {
@@ -84,10 +85,10 @@ impl SqliteFile {
         }
         let mut source = beside::source(readable)?;
         let pages = PageFile::open(&source.path).map_err(Error::io(path, "open"))?;
-        let opened = match whole(path, &source.path, &pages) {
+        let opened = match whole(path, &source.path, &pages, allowance) {
             Ok(opened) => Ok(opened),
             Err(Failure::NotOurs(reason)) => Err(reason),
-            Err(Failure::Broken(broken)) => salvaged(path, &pages, broken),
+            Err(Failure::Broken(broken)) => salvaged(path, &pages, allowance, broken),
         };
         let (topics, storage, mut index) = opened.map_err(not_a_recording)?;
         index.damage.extend(source.damage.take());
@@ -162,7 +163,7 @@ fn place(at: usize) -> u32 {
 }
 
 /// Opens a database of which SQLite can read everything. `path` is the recording's, `source` the file to read.
-fn whole(path: &Path, source: &Path, pages: &PageFile) -> Result<Opened, Failure> {
+fn whole(path: &Path, source: &Path, pages: &PageFile, allowance: u64) -> Result<Opened, Failure> {
     let broken = |error: rusqlite::Error| Broken::new(error.to_string());
     let database = Database::open(source, pages.len).map_err(broken)?;
     let schema = schema::read(&database, pages.len).map_err(broken)??;
@@ -171,8 +172,8 @@ fn whole(path: &Path, source: &Path, pages: &PageFile) -> Result<Opened, Failure
     let root = table.map_err(|error| with_topics(error.to_string(), None))??.root;
     let (topics, mut index) = empty_index(&schema.topics);
     index.damage.extend(schema.damage.iter().map(|reason| Error::damaged(path, 0, reason)));
-    let mut collector = Collector::new(&topics, &mut index, pages.len);
-    let parts = query::scan(&database, &mut collector, &mut Measure::new(pages.len))
+    let mut collector = Collector::new(&topics, &mut index, pages.len, allowance);
+    let parts = query::scan(&database, &mut collector, &mut Measure::new(allowance))
         .map_err(|Stop { id, reason }| with_topics(reason, Some((root, id))))?;
     let refused = collector.finish();
     index.damage.extend(
@@ -184,7 +185,7 @@ fn whole(path: &Path, source: &Path, pages: &PageFile) -> Result<Opened, Failure
 }
 
 /// Opens a database that SQLite gave up. The error is why nothing can be read from it.
-fn salvaged(path: &Path, pages: &PageFile, broken: Broken) -> Result<Opened, String> {
+fn salvaged(path: &Path, pages: &PageFile, allowance: u64, broken: Broken) -> Result<Opened, String> {
     let Broken { reason, topics, place } = broken;
     let reason = pages.fault().unwrap_or(reason);
     let found = salvage::search(pages);
@@ -200,8 +201,8 @@ fn salvaged(path: &Path, pages: &PageFile, broken: Broken) -> Result<Opened, Str
     let offset = place.and_then(|(_, id)| broken_page(id)).map_or(0, |page| pages.offset(page));
     index.damage.push(Error::damaged(path, offset, format!("{reason}; what other pages hold is read")));
     index.damage.extend(found.damage.iter().map(|reason| Error::damaged(path, 0, reason)));
-    let mut collector = Collector::new(&topics, &mut index, pages.len);
-    let (parts, gaps) = found.leaves.scan(pages, &mut collector, &mut Measure::new(pages.len));
+    let mut collector = Collector::new(&topics, &mut index, pages.len, allowance);
+    let (parts, gaps) = found.leaves.scan(pages, &mut collector, &mut Measure::new(allowance));
     let refused = collector.finish();
     let damaged = |page, reason| Error::damaged(path, pages.offset(page), reason);
     index.damage.extend(refused.into_iter().map(|(id, reason)| damaged(found.leaves.page_of(id), reason)));

@@ -8,7 +8,7 @@ use tempfile::TempPath;
 
 use crate::block::{Block, FileIndex, Loaded};
 use crate::chunk;
-use crate::compression;
+use crate::compression::{self, Allowance};
 use crate::error::Error;
 use crate::file::McapFile;
 use crate::index;
@@ -37,7 +37,7 @@ enum Storage {
         file: McapFile,
         /// Numbers of the channels that have a topic, ascending.
         channels: Vec<u32>,
-        /// Bytes that compressed messages of a block may have, see [`compression::most_in_block`].
+        /// Bytes that compressed messages of a block may have, see [`crate::compression::most_in_block`].
         share: u64,
     },
     #[cfg(feature = "sqlite")]
@@ -46,7 +46,7 @@ enum Storage {
 
 impl RecordedFile {
     /// Opens a file and finds what is in it.
-    pub(crate) fn open(path: &Path) -> Result<(Self, FileIndex), Error> {
+    pub(crate) fn open(path: &Path, allowance: &mut Allowance) -> Result<(Self, FileIndex), Error> {
         let metadata = std::fs::metadata(path).map_err(Error::io(path, "open"))?;
         // Opening a pipe waits for whoever writes into it, and a device never ends.
         if !metadata.is_file() {
@@ -56,7 +56,7 @@ impl RecordedFile {
         let stored = metadata.len();
         let (decompressed, damage) = match path.extension() {
             Some(extension) if extension == COMPRESSED => {
-                let (file, damage) = compression::whole_file(path)?;
+                let (file, damage) = compression::whole_file(path, &mut allowance.whole_files)?;
                 (Some(file), damage)
             }
             _ => (None, None),
@@ -65,15 +65,17 @@ impl RecordedFile {
         let name = if decompressed.is_some() { path.with_extension("") } else { path.to_owned() };
         let is_database = name.extension().is_some_and(|extension| extension == SQLITE)
             || begins_with(readable, SQLITE_MAGIC).map_err(Error::io(path, "open"))?;
+        let may_decompress = allowance.parts.of(stored);
         let (storage, mut index) = if is_database {
-            open_database(readable, path)?
+            open_database(readable, path, may_decompress)?
         } else {
             let file = McapFile::open(readable, path)?;
-            let index = index::of(&file, compression::allowance(stored))?;
+            let index = index::of(&file, may_decompress)?;
             let channels = index.topics.keys().copied().collect();
-            let share = compression::share_of_block(index.blocks.len());
+            let share = allowance.share_of_block(index.blocks.len());
             (Storage::Mcap { file, channels, share }, index)
         };
+        allowance.parts.pay(stored, index.decompressed_bytes);
         index.damage.extend(damage);
         Ok((Self { path: path.to_owned(), storage, _decompressed: decompressed }, index))
     }
@@ -96,16 +98,17 @@ impl std::fmt::Debug for RecordedFile {
     }
 }
 
-/// Opens the database at `readable`; `path` is its name in what is said about it.
+/// Opens the database at `readable`; `path` is its name in what is said about it. Its messages may take `may_decompress`
+/// bytes altogether.
 #[cfg(feature = "sqlite")]
-fn open_database(readable: &Path, path: &Path) -> Result<(Storage, FileIndex), Error> {
-    let (file, index) = SqliteFile::open(readable, path)?;
+fn open_database(readable: &Path, path: &Path, may_decompress: u64) -> Result<(Storage, FileIndex), Error> {
+    let (file, index) = SqliteFile::open(readable, path, may_decompress)?;
     Ok((Storage::Sqlite(Box::new(file)), index))
 }
 
 /// Says that databases were left out when this program was built.
 #[cfg(not(feature = "sqlite"))]
-fn open_database(_: &Path, path: &Path) -> Result<(Storage, FileIndex), Error> {
+fn open_database(_: &Path, path: &Path, _: u64) -> Result<(Storage, FileIndex), Error> {
     let what = "SQLite storage (this program was built without the feature `sqlite`)".to_owned();
     Err(Error::Unsupported { path: path.to_owned(), what })
 }

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use common::mcap_files::*;
 use common::*;
+use mcap::records::op;
 use recording::check::check;
 use recording::repair::{Repaired, default_output, repair};
 use recording::{Durability, Recording};
@@ -258,6 +259,33 @@ fn a_compressed_file_that_is_cut_is_read_up_to_there_and_a_bomb_is_refused_in_ti
     let (_guard, path) = directory(&[("session_0.mcap.zstd", b"no compression at all")]);
     let error = Recording::open(&path).unwrap_err().to_string();
     assert!(error.contains("session_0.mcap.zstd") && error.contains("zstd"), "{error}");
+}
+
+/// Each copy of a file has what its own bytes give, and all of them together what one has beside that.
+#[test]
+fn copies_of_a_bomb_in_one_directory_decompress_to_no_more_than_one() {
+    let inside = vec![0; 60 << 20];
+    let stored = zstd::bulk::compress(&inside, 1).unwrap();
+    let size = (inside.len() as u64).to_le_bytes();
+    let length = (stored.len() as u64).to_le_bytes();
+    let content = [&[0; 16][..], &size, &[0; 4], &4_u32.to_le_bytes(), b"zstd", &length, &stored].concat();
+    let chunk = [&[op::CHUNK][..], &(content.len() as u64).to_le_bytes(), &content].concat();
+    let bomb = [mcap::MAGIC, &chunk.repeat(15)].concat();
+    let copies: Vec<_> = (0..4).map(|number| format!("session_{number}.mcap")).collect();
+    let files: Vec<_> = copies.iter().map(|name| (name.as_str(), &bomb[..])).collect();
+    let (_guard, path) = directory(&files);
+    let damage: Vec<_> = Recording::open(&path).unwrap().damage().iter().map(ToString::to_string).collect();
+    let left_out = damage.iter().filter(|told| told.contains("behind others")).count();
+    assert!(left_out >= 40, "{left_out}: {damage:?}");
+
+    let zeros = [&file(PLAIN, 0..100, 50)[..], &vec![0; 200 << 20]].concat();
+    let whole = zstd::bulk::compress(&zeros, 1).unwrap();
+    let (_guard, path) = directory(&[("a_0.mcap.zstd", &whole), ("a_1.mcap.zstd", &whole)]);
+    let damage: Vec<_> = Recording::open(&path).unwrap().damage().iter().map(ToString::to_string).collect();
+    assert!(
+        damage.iter().any(|told| told.contains("a_1.mcap.zstd") && told.contains("decompresses to more")),
+        "{damage:?}"
+    );
 }
 
 #[test]

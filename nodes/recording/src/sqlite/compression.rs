@@ -3,7 +3,6 @@
 use std::io::Read;
 
 use crate::block::MAX_BLOCK_BYTES;
-use crate::compression::allowance;
 use crate::compression::messages::decoder;
 pub(super) use crate::compression::messages::is_compressed;
 
@@ -26,9 +25,9 @@ pub(super) struct Measure {
 }
 
 impl Measure {
-    /// For a file of this size.
-    pub(super) fn new(file_bytes: u64) -> Self {
-        Self { left: allowance(file_bytes) }
+    /// Up to so many bytes.
+    pub(super) fn new(allowance: u64) -> Self {
+        Self { left: allowance }
     }
 
     /// How many bytes a message takes in memory; [`MAX_BLOCK_BYTES`] where it is larger than that, which is said when it is

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::block::{Block, FileIndex, MAX_BLOCK_BYTES, Place};
-use crate::compression;
 
 /// A block is closed when it has this many bytes in memory,
 const BLOCK_BYTES: u64 = 1 << 20;
@@ -61,7 +60,7 @@ impl Refusal {
             Self::Data => "have something else than bytes as their data",
             Self::Size => "are larger than the accepted 67108864 bytes",
             Self::Claim => "claim more bytes than the file has",
-            Self::Bomb => "decompress to more than is accepted of a file of this size",
+            Self::Bomb => "decompress to more than is accepted of a recording of this size",
         }
     }
 }
@@ -129,14 +128,14 @@ pub(super) enum Taken {
 }
 
 impl<'a> Collector<'a> {
-    /// For a file of `len` bytes.
-    pub(super) fn new(topics: &'a Topics, index: &'a mut FileIndex, len: u64) -> Self {
+    /// For a file of `len` bytes, whose messages may take `allowance` bytes in memory altogether.
+    pub(super) fn new(topics: &'a Topics, index: &'a mut FileIndex, len: u64, allowance: u64) -> Self {
         Self {
             topics,
             index,
             len,
             unclaimed: len.saturating_mul(CLAIMS),
-            allowance: compression::allowance(len),
+            allowance,
             spent: None,
             block: Unfinished::default(),
             refused: BTreeMap::new(),
@@ -195,6 +194,7 @@ impl<'a> Collector<'a> {
         let allowance = self.allowance.checked_sub(in_memory.unwrap_or(u64::MAX)).ok_or(Refusal::Bomb);
         self.spent = unclaimed.and(allowance).err();
         (self.unclaimed, self.allowance) = (unclaimed?, allowance?);
+        self.index.decompressed_bytes += in_memory.unwrap_or(0);
         Ok(())
     }
 
@@ -239,6 +239,7 @@ impl<'a> Collector<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compression::Allowance;
 
     fn row(id: i64, stored: u64) -> Row {
         let data = Some(Size { stored, in_memory: Some(stored) });
@@ -250,7 +251,7 @@ mod tests {
         let topics = Topics::new([7].into_iter());
         let mut index = FileIndex::default();
         let len = 1_000_000;
-        let mut collector = Collector::new(&topics, &mut index, len);
+        let mut collector = Collector::new(&topics, &mut index, len, Allowance::new(1).parts.of(len));
         let taken = (0..100_000).filter(|id| collector.take(&row(*id, 900_000)) != Taken::No).count();
         assert_eq!(taken as u64, len * CLAIMS / 900_000);
         let refused = collector.finish();
@@ -262,15 +263,16 @@ mod tests {
         let topics = Topics::new([7].into_iter());
         let mut index = FileIndex::default();
         let len = 10_000_000;
-        let mut collector = Collector::new(&topics, &mut index, len);
+        let allowance = Allowance::new(1).parts.of(len);
+        let mut collector = Collector::new(&topics, &mut index, len, allowance);
         let in_memory = 60 << 20;
         let bomb = |id| Row { data: Some(Size { stored: 3000, in_memory: Some(in_memory) }), ..row(id, 0) };
         let taken = (0..3000).filter(|id| collector.take(&bomb(*id)) != Taken::No).count() as u64;
-        assert_eq!(taken, compression::allowance(len) / in_memory);
+        assert_eq!(taken, allowance / in_memory);
         let refused = collector.finish();
         assert!(refused[0].1.contains("decompress to more than is accepted"), "{refused:?}");
 
-        let mut collector = Collector::new(&topics, &mut index, len);
+        let mut collector = Collector::new(&topics, &mut index, len, Allowance::new(1).parts.of(len));
         let unmeasured = Row { data: Some(Size { stored: 3000, in_memory: None }), ..row(0, 0) };
         assert!(collector.lacks_size(&unmeasured));
         assert_eq!(collector.take(&unmeasured), Taken::No, "there is too much to measure");
@@ -282,7 +284,7 @@ mod tests {
     fn a_block_ends_with_a_megabyte_and_a_large_message_is_a_block_of_its_own() {
         let topics = Topics::new([7].into_iter());
         let mut index = FileIndex::default();
-        let mut collector = Collector::new(&topics, &mut index, 1 << 30);
+        let mut collector = Collector::new(&topics, &mut index, 1 << 30, u64::MAX);
         let sizes = [600_000, 400_000, 100_000, 5_000_000, 10];
         let taken: Vec<_> = (0..).zip(sizes).map(|(id, size)| collector.take(&row(id, size))).collect();
         assert_eq!(taken, [Taken::Same, Taken::Same, Taken::Next, Taken::Next, Taken::Next]);
