@@ -27,7 +27,7 @@ use kind::Kind;
 use topic::{Recorded, TopicComparison};
 
 use crate::Recording;
-use crate::messages::same_definition;
+use crate::messages::is_same;
 
 /// Topics that a golden recording has because they were computed once: they must be computed again.
 const JUDGED: [&str; 3] = ["servo_cf", "contact_state", "surface_displacement"];
@@ -113,8 +113,7 @@ fn recorded_as(golden: &Recording, name: &str, is_computed: bool) -> (Vec<usize>
     } else if topic.serialization_format != "cdr" {
         Some(format!("the golden recording has it in {:?}; compared is \"cdr\"", topic.serialization_format))
     } else {
-        let definition = &topic.definition;
-        same_definition(&type_name, &definition.text, &definition.encoding).err()
+        is_same(&type_name, &topic.definition).err()
     };
     let presence = if is_computed { Presence::Both } else { Presence::GoldenOnly };
     (places, Recorded { type_name, presence, refused })

@@ -1,6 +1,7 @@
 //! The messages this product needs without ROS. Fields, names and units are those of the `.msg` files.
 
 mod definition;
+mod hashes;
 mod text;
 
 use serde::Serialize;
@@ -8,7 +9,7 @@ use serde::Serialize;
 use crate::cdr::{Decoder, Encoder, Fault, Message, Shape, Wire};
 
 pub(crate) use definition::fields_of;
-pub use definition::same_definition;
+pub use definition::{is_same, same_definition};
 pub use text::own_definition;
 
 /// Defines a struct with the fields of a message and their order on the wire.

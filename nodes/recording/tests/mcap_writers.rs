@@ -9,9 +9,9 @@ use common::mcap_files::*;
 use common::*;
 use mcap::records::op;
 use recording::cdr::encode;
-use recording::check::{Verdict, check};
+use recording::check::{Report, Verdict, check};
 use recording::repair::repair;
-use recording::{Playback, Recording};
+use recording::{MessageDefinition, Playback, Recording, Topic, Writer};
 
 /// A file with these bytes, in a directory of its own.
 fn on_disk(bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
@@ -150,4 +150,41 @@ fn a_chunk_without_messages_may_end_before_it_begins() {
         assert_eq!(report.topics[0].name, "/pose");
         assert!(repair(&path, &guard.path().join("repaired"), &|| true).unwrap().all_saved);
     }
+}
+
+/// A recording of poses whose definition is this.
+fn check_of(encoding: &str, text: &str, type_hash: &str) -> Report {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("session");
+    let [encoding, text, type_hash] = [encoding, text, type_hash].map(str::to_owned);
+    let mut writer = Writer::create(&path, "jazzy").unwrap();
+    let definition = MessageDefinition { encoding, text, type_hash };
+    let topic = writer.add_topic(Topic { definition, ..topic("/measured_cp") }).unwrap();
+    write(&mut writer, topic, 0..10);
+    writer.close().unwrap();
+    check(&path)
+}
+
+#[test]
+fn without_a_text_in_ros2msg_the_type_hash_says_whether_the_definition_is_another() {
+    const KNOWN: &str = "RIHS01_10f3786d7d40fd2b54367835614bff85d4ad3b5dab62bf8bca0cc232d73b4cd8";
+    for (encoding, text) in [("ros2idl", "struct PoseStamped {};"), ("ros2msg", "")] {
+        let other = check_of(encoding, text, &KNOWN.replace("10f", "00f"));
+        assert_eq!(other.verdict, Verdict::Damaged, "{encoding}: {:?}", other.remarks);
+        assert!(
+            other.problems[0].contains("another definition") && other.problems[0].contains(KNOWN),
+            "{:?}",
+            other.problems
+        );
+        assert_eq!(check_of(encoding, text, KNOWN).verdict, Verdict::Whole, "{encoding}");
+    }
+    let unknown = check_of("ros2idl", "struct PoseStamped {};", "");
+    assert_eq!(unknown.verdict, Verdict::Whole);
+    assert!(unknown.remarks.iter().any(|remark| remark.contains("is not known")), "{:?}", unknown.remarks);
+    assert!(
+        !check_of("ros2idl", "struct PoseStamped {};", KNOWN)
+            .remarks
+            .iter()
+            .any(|remark| remark.contains("is not known"))
+    );
 }

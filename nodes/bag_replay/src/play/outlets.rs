@@ -6,7 +6,7 @@ use anyhow::{Context, anyhow, bail};
 use node_kit::{NodeKit, topics};
 use r2r::PublisherUntyped;
 use r2r::qos::ReliabilityPolicy;
-use recording::messages::same_definition;
+use recording::messages::is_same;
 use recording::{RecordedTopic, Recording, Topic};
 
 use super::content::Content;
@@ -139,6 +139,5 @@ fn check(topic: &Topic, type_name: &str, target: &str, expected: Option<&String>
              replay.topics or give it another name with replay.remap"
         );
     }
-    same_definition(recorded, &definition.text, &definition.encoding)
-        .map_err(|reason| anyhow!("{name} cannot be played: {reason}"))
+    is_same(recorded, definition).map(drop).map_err(|reason| anyhow!("{name} cannot be played: {reason}"))
 }

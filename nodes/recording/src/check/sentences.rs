@@ -1,7 +1,7 @@
 //! What there is to say about a topic.
 
 use super::topic::{DefinitionState, TopicReport};
-use super::values::is_pose;
+use super::values::{is_pose, look_at};
 use crate::cdr::Message as _;
 use crate::messages::{Bool, JointState, Joy, PoseStamped, TransformStamped, WrenchStamped};
 
@@ -63,6 +63,12 @@ impl TopicReport {
         if self.definition == DefinitionState::Missing && *messages > 0 {
             remark(format!(
                 "the definition of {type_name} is not in the recording; readers without it need ROS"
+            ));
+        }
+        if self.definition == DefinitionState::NotKnown && look_at(type_name).is_some() {
+            remark(format!(
+                "the definition of {type_name} is neither in ros2msg nor has it a type hash: whether its fields are those of \
+                 this version is not known"
             ));
         }
         if let Some(oddities) = self.stamps.as_ref().and_then(|stamps| stamps.oddities()) {

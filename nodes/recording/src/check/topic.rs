@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::periods::{Periods, Times};
 use super::stamps::StampOrder;
 use super::values::{Facts, Look, look_at};
-use crate::messages::same_definition;
+use crate::messages::is_same;
 use crate::qos::Qos;
 use crate::reader::MessageRef;
 use crate::topic::{RecordedTopic, Topic};
@@ -16,7 +16,7 @@ use crate::topic::{RecordedTopic, Topic};
 pub enum DefinitionState {
     /// The same fields in the same order as here.
     Agrees,
-    /// There is one, and the type is not known here.
+    /// There is one, and the type is not known here, or nothing of it can be compared.
     NotKnown,
     /// There is none.
     Missing,
@@ -147,11 +147,11 @@ impl<'a> TopicCheck<'a> {
 
     pub(crate) fn finish(self) -> TopicReport {
         let Topic { name, type_name, serialization_format, offered_qos, definition } = &self.topic.topic;
-        let state = match (definition.text.is_empty(), self.look) {
-            (true, _) => DefinitionState::Missing,
-            (false, None) => DefinitionState::NotKnown,
-            (false, Some(_)) => same_definition(type_name, &definition.text, &definition.encoding)
-                .map_or_else(DefinitionState::Differs, |()| DefinitionState::Agrees),
+        let state = match is_same(type_name, definition) {
+            Err(reason) => DefinitionState::Differs(reason),
+            Ok(_) if definition.text.trim().is_empty() => DefinitionState::Missing,
+            Ok(true) => DefinitionState::Agrees,
+            Ok(false) => DefinitionState::NotKnown,
         };
         TopicReport {
             name: name.clone(),

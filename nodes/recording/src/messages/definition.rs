@@ -1,12 +1,39 @@
 //! Whether a recorded definition of a type is the one this crate reads and writes.
 //!
 //! CDR carries no names: a message of another definition decodes into nonsense, or just fits. So the text in the recording
-//! is compared, field by field, with the structs here.
+//! is compared, field by field, with the structs here; and where there is none in `ros2msg`, the hash of the type.
 
 use std::collections::BTreeMap;
 
+use super::hashes::same_hash;
 use super::shape_of;
+use crate::MessageDefinition;
 use crate::cdr::Shape;
+
+/// Whether a recorded definition of a type this crate knows is the one here: by its text, or by its hash where there is no
+/// text in `ros2msg`. `false` where neither tells, and for a type this crate does not know.
+///
+/// # Errors
+/// A sentence that says what differs.
+pub fn is_same(type_name: &str, recorded: &MessageDefinition) -> Result<bool, String> {
+    let MessageDefinition { encoding, text, type_hash } = recorded;
+    if shape_of(type_name).is_none() {
+        return Ok(false);
+    }
+    if encoding != IDL && !text.trim().is_empty() {
+        return same_definition(type_name, text, encoding).map(|()| true);
+    }
+    match same_hash(type_name, type_hash) {
+        Some(Ok(())) => Ok(true),
+        Some(Err(known)) => {
+            Err(format!("the type hash of {type_name} is {type_hash} in the recording; accepted: {known}"))
+        }
+        None => Ok(false),
+    }
+}
+
+/// The other language of definitions, which is not compared.
+const IDL: &str = "ros2idl";
 
 /// Whether a recorded definition of a type this crate knows has the same fields in the same order, nested types included.
 /// Comments, blank lines, constants, defaults and bounds do not count: they change nothing on the wire.
@@ -22,9 +49,9 @@ pub fn same_definition(type_name: &str, recorded_text: &str, encoding: &str) -> 
     }
     match encoding {
         "" | "ros2msg" => same_message(&shape, &sections(type_name, recorded_text)),
-        "ros2idl" => Ok(()),
+        IDL => Ok(()),
         other => {
-            Err(format!("the definition of {type_name} is written in {other:?}; accepted: ros2msg, ros2idl"))
+            Err(format!("the definition of {type_name} is written in {other:?}; accepted: ros2msg, {IDL}"))
         }
     }
 }
@@ -185,6 +212,26 @@ mod tests {
         let nested = format!("{JOY}{}", HEADER.replace("string frame_id", "string child"));
         let error = same_definition("sensor_msgs/msg/Joy", &nested, "ros2msg").unwrap_err();
         assert!(error.contains("std_msgs/msg/Header") && error.contains("string child"), "{error}");
+    }
+
+    #[test]
+    fn without_a_text_in_ros2msg_the_hash_of_the_type_tells() {
+        let joy = "RIHS01_0d356c79cad3401e35ffeb75a96a96e08be3ef896b8b83841d73e890989372c5";
+        let other = joy.replace("0d", "1d");
+        let recorded = |encoding: &str, text: &str, hash: &str| {
+            let [encoding, text, type_hash] = [encoding, text, hash].map(str::to_owned);
+            is_same("sensor_msgs/msg/Joy", &MessageDefinition { encoding, text, type_hash })
+        };
+        for (encoding, text) in [("ros2idl", "struct Joy {};"), ("ros2msg", ""), ("", "")] {
+            assert_eq!(recorded(encoding, text, joy), Ok(true));
+            assert_eq!(recorded(encoding, text, ""), Ok(false));
+            assert_eq!(recorded(encoding, text, "RIHS01_0d"), Ok(false), "no hash");
+            let error = recorded(encoding, text, &other).unwrap_err();
+            assert!(error.contains(&other) && error.contains(joy), "{error}");
+        }
+        assert_eq!(recorded("ros2msg", &format!("{JOY}{HEADER}"), &other), Ok(true), "the text says more");
+        assert!(recorded("ros2msg", "bool data", joy).is_err());
+        assert_eq!(is_same("other_msgs/msg/Thing", &MessageDefinition::default()), Ok(false));
     }
 
     #[test]

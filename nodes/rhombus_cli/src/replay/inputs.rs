@@ -1,7 +1,7 @@
 //! Which topics of a recording say what to the model.
 
 use anyhow::{Context, bail, ensure};
-use recording::messages::{Bool, JointState, Joy, PoseStamped, TFMessage, TransformStamped, same_definition};
+use recording::messages::{Bool, JointState, Joy, PoseStamped, TFMessage, TransformStamped, is_same};
 use recording::{Playback, RecordedTopic, Recording, cdr::Message, remapped};
 use scene::topic;
 
@@ -150,8 +150,7 @@ fn input(type_name: &str, name: &str, namespace: &str, devices: &[String]) -> an
 fn same(recorded: &RecordedTopic) -> anyhow::Result<()> {
     let topic = &recorded.topic;
     ensure!(topic.serialization_format == "cdr", "encoding {:?}; accepted: cdr", topic.serialization_format);
-    let definition = &topic.definition;
-    same_definition(&topic.type_name, &definition.text, &definition.encoding).map_err(anyhow::Error::msg)
+    is_same(&topic.type_name, &topic.definition).map(drop).map_err(anyhow::Error::msg)
 }
 
 #[cfg(test)]
