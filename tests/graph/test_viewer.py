@@ -8,7 +8,7 @@ import peer
 import pytest
 import rclpy
 from crtk_msgs.msg import OperatingState
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import PoseStamped, TransformStamped, WrenchStamped
 from rhombus_haptics_msgs.msg import ContactState
 from test_visualization import (
     CENTRE,
@@ -23,7 +23,9 @@ from test_visualization import (
     pose,
     press,
     topology_version,
+    wrench,
 )
+from tf2_msgs.msg import TFMessage
 from viewer import LATCHED, body_is_scene, plate, start  # noqa: F401
 from websocket import MESH, STATE, SURFACE
 
@@ -72,9 +74,59 @@ def test_a_page_is_greeted_then_shown_mesh_surface_and_state_as_the_topics_say(s
     assert state["quaternion"] == pytest.approx([0, 0, -math.sqrt(0.5), math.sqrt(0.5)], abs=1e-6)
     assert (state["depth_m"], state["normal_force_n"]) == pytest.approx((DEPTH_M, 0.4))
     assert state["force"] == pytest.approx([0, 0, 0.4], abs=1e-7)
+    assert (state["flags"] & 32, list(state["commanded_force"])) == (0, list(state["force"])), "nobody says what motors apply"
     assert math.isnan(state["latency_s"]), "a stamp of 1970 is of another clock"
     chain = page.last("chains")["chains"][0]
     assert (chain["units"], chain["ratio"]) == (CHAIN["chains.units"][0], 0.8)
+
+
+def test_the_force_on_the_hand_is_what_the_motors_apply_and_the_command_stands_beside_it(start):
+    session = start()
+    page = session.page()
+    driver = rclpy.create_node("driver", namespace=session.namespace)
+    applied = driver.create_publisher(WrenchStamped, "measured_cf", peer.reliable(1000))
+    turned = TransformStamped(child_frame_id="device_base")
+    turned.header.frame_id = f"{session.namespace}/scene"
+    turned.transform.rotation.z, turned.transform.rotation.w = math.sqrt(0.5), math.sqrt(0.5)
+    session.publish("/tf_static", TFMessage(transforms=[turned]), peer.latched(100))
+    state = lambda: page.states()[0]
+
+    def command():
+        session.publish("contact_state", contact())
+        session.publish("servo_cf", wrench(1.2))
+
+    def give(x, y=0.0):
+        message = wrench(0.0)
+        message.wrench.force.x, message.wrench.force.y = x, y
+        command()
+        applied.publish(message)
+
+    heard = lambda: page.shown[STATE] and state()["flags"] & (2 | 32 | 64) == 2 | 32 | 64
+    session.wait_for(heard, "what is applied and what is commanded", lambda: give(0.3))
+    assert state()["force"] == pytest.approx([0, 0.3, 0], abs=1e-6), "in the body's axes"
+    assert state()["commanded_force"] == pytest.approx([0, 0, 1.2], abs=1e-6)
+    # Disabled: the model still commands, the motors apply nothing.
+    session.wait_for(lambda: not state()["force"].any(), "no force on the hand", lambda: give(0.0))
+    assert state()["commanded_force"][2] == pytest.approx(1.2)
+    not_drawn = lambda: page.last("status")["not_drawn"]["not_drawable"]
+    assert not_drawn() == 0
+    session.wait_for(lambda: not_drawn() > 0, "a force that is not finite is counted", lambda: give(math.nan))
+    # A driver that hangs applies nobody knows what: the command is not shown in its place.
+    session.wait_for(lambda: not state()["flags"] & (2 | 32), "the force is not known", command)
+    assert state()["flags"] & 64 and not state()["force"].any()
+    # Where nobody says what motors apply, as in a recording without it, the command stands for it, and is marked as one.
+    driver.destroy_node()
+    session.wait_for(lambda: state()["flags"] & (2 | 32 | 64) == 2 | 64, "the command in its place", command)
+    assert state()["force"] == pytest.approx([0, 0, 1.2], abs=1e-6)
+
+
+def test_without_a_page_nobody_hears_what_the_motors_apply(start):
+    session = start()
+    readers = lambda: session.node.count_subscribers(session.node.resolve_topic_name("measured_cf"))
+    session.spin(0.5)
+    assert readers() == 0
+    session.page()
+    session.wait_for(lambda: readers() == 1, "the page's node hears it")
 
 
 def test_latency_is_the_age_of_the_pose_when_its_contact_is_heard(start):

@@ -29,7 +29,8 @@ DEVICE = numpy.dtype(
         ("latency_s", "<f4"),
         ("pose_rate_hz", "<f4"),
         ("handle", "<f4", 3),
-        ("padding", "<f4", 4),
+        ("commanded_force", "<f4", 3),
+        ("padding", "<f4"),
     ]
 )
 assert DEVICE.itemsize == 128

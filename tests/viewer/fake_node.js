@@ -149,15 +149,16 @@ export class FakeNode {
     return buffer;
   }
 
-  state(i = 0, { probe } = {}) {
+  /** `applied`: force that the motors give, N; what the model commands if not said. */
+  state(i = 0, { probe, applied } = {}) {
     const depth = depthOf(i);
     const { buffer, view } = this.#frame(3, 16 + 128);
     view.setFloat64(8, Date.now() / 1000, true);
     view.setUint32(20, 1, true);
     view.setUint8(24, 1);
-    view.setUint8(25, 7);
+    view.setUint8(25, 7 | 32 | 64);
     const at = RADIUS_M - depth + 0.005;
-    const numbers = [...(probe ?? [0, 0, at]), 0, 0, 0, 1, 0, 0, RADIUS_M, 0, 0, 1, 0, 0, 200 * depth, depth, 200 * depth, 200, 4e-4, 1000, 0, 0, at];
+    const numbers = [...(probe ?? [0, 0, at]), 0, 0, 0, 1, 0, 0, RADIUS_M, 0, 0, 1, 0, 0, applied ?? 200 * depth, depth, 200 * depth, 200, 4e-4, 1000, 0, 0, at, 0, 0, 200 * depth];
     numbers.forEach((value, k) => view.setFloat32(24 + 16 + 4 * k, value, true));
     return buffer;
   }

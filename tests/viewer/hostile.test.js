@@ -55,6 +55,19 @@ test("NaN is not drawn, and counted", async (t) => {
   assert.deepEqual((await read(page, "moved")).map((one) => one.vertex), [1]);
 });
 
+test("the force of a device is what its motors apply; a command that they do not follow is said beside it", async (t) => {
+  const { node, page } = await visit(t);
+  await page.getByText("0.40", { exact: true }).first().waitFor();
+  assert.equal(await page.locator(".device .note:visible").count(), 0);
+  node.quiet();
+  const timer = setInterval(() => node.send(node.state(0, { applied: 0 })), 50);
+  t.after(() => clearInterval(timer));
+  await page.getByText("motors 0.00 N, model 0.40 N: enabled").waitFor();
+  const [number] = await page.locator(".device", { hasText: "Force" }).locator(".numbers div", { hasText: "Force" }).locator("dd").allTextContents();
+  assert.equal(number, "0.00");
+  await keep(page, "not-applied");
+});
+
 test("a scene that changes while the page is open: the new body is shown, updates of the old one are not", async (t) => {
   const { node, page } = await visit(t);
   const old = node.topologyVersion;

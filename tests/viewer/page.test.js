@@ -158,7 +158,7 @@ test("the plotted window is saved as CSV: names with units, a row for each state
   const lines = readFileSync(await download.path(), "utf8").trim().split("\n");
   const names = lines[0].split(",");
   assert.deepEqual(names.slice(0, 2), ["time_s", "seconds_before_end"]);
-  for (const unit of ["depth_mm", "force_n", "rate_hz", "latency_ms", "missed_deadlines_per_s"]) {
+  for (const unit of ["depth_mm", "applied_force_n", "commanded_force_n", "rate_hz", "latency_ms", "missed_deadlines_per_s"]) {
     assert.ok(names.some((name) => name.endsWith(unit)), unit);
   }
   assert.ok(lines.length > 4, `${lines.length} lines`);

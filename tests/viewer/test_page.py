@@ -91,7 +91,8 @@ def test_the_mouse_presses_the_organ_and_the_page_shows_what_the_model_says(sess
     remote = peer.Peer()
     surfaces = remote.heard(SurfaceDisplacement, "surface_displacement", peer.reliable(1000))
     contacts = remote.heard(ContactState, "contact_state", peer.reliable(5000))
-    forces = remote.heard(WrenchStamped, "servo_cf", peer.reliable(5000))
+    commanded = remote.heard(WrenchStamped, "servo_cf", peer.reliable(5000))
+    applied = remote.heard(WrenchStamped, "measured_cf", peer.reliable(5000))
     (ARTEFACTS / "pressed.json").unlink(missing_ok=True)
     browser = Browser(tmp_path, "node.test.js", address)
     while browser.process.poll() is None:
@@ -113,9 +114,11 @@ def test_the_mouse_presses_the_organ_and_the_page_shows_what_the_model_says(sess
     assert same, "the page showed a surface that the model never published"
     state = shown["state"]
     close = lambda a, b: abs(a - b) <= 1e-6 * max(abs(a), abs(b), 1e-3)
-    assert any(
-        all(close(shown_part, part) for shown_part, part in zip(state["force"], peer.force_of(force))) for force in forces
-    ), "the page showed a force that the model never commanded"
+    shows = lambda shown, forces: any(
+        all(close(shown_part, part) for shown_part, part in zip(shown, peer.force_of(force))) for force in forces
+    )
+    assert shows(state["command"], commanded), "the page showed a command that the model never gave"
+    assert state["forceApplied"] and shows(state["force"], applied), "the page showed a force that the motors never gave"
     contact = min(contacts, key=lambda contact: abs(contact.depth - state["depthM"]))
     assert close(contact.depth, state["depthM"])
     expected_n = peer.library_force_n(parameters, state["depthM"])

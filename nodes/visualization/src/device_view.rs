@@ -80,7 +80,9 @@ pub(crate) struct NotDrawable;
 #[derive(Debug, Default)]
 pub(crate) struct DeviceView {
     contact: Option<(Instant, Contact)>,
-    force_n: Option<(Instant, InFrame<DVec3>)>,
+    commanded_n: Option<(Instant, InFrame<DVec3>)>,
+    #[cfg(feature = "viewer")]
+    applied_n: Option<(Instant, InFrame<DVec3>)>,
     pose: Option<(Instant, InFrame<Pose>)>,
     revision: u64,
 }
@@ -95,13 +97,17 @@ impl DeviceView {
         Ok(())
     }
 
-    /// The force on the hand.
-    pub(crate) fn hear_force(&mut self, now: Instant, force_n: InFrame<DVec3>) -> Result<(), NotDrawable> {
-        if force_n.frame_id.is_empty() || !is_drawable(force_n.value) {
-            return Err(NotDrawable);
-        }
-        self.force_n = Some((now, force_n));
+    /// The force that the model commands for the hand.
+    pub(crate) fn hear_command(&mut self, now: Instant, force_n: InFrame<DVec3>) -> Result<(), NotDrawable> {
+        self.commanded_n = Some((now, drawable(force_n)?));
         self.revision += 1;
+        Ok(())
+    }
+
+    /// The force on the hand, as the driver says that the motors apply it.
+    #[cfg(feature = "viewer")]
+    pub(crate) fn hear_applied(&mut self, now: Instant, force_n: InFrame<DVec3>) -> Result<(), NotDrawable> {
+        self.applied_n = Some((now, drawable(force_n)?));
         Ok(())
     }
 
@@ -154,9 +160,15 @@ impl DeviceView {
         fresh(&self.pose, now)
     }
 
-    /// The force on the hand, unless it is old.
-    pub(crate) fn force_n(&self, now: Instant) -> Option<&InFrame<DVec3>> {
-        fresh(&self.force_n, now)
+    /// The force that the model commands, unless it is old.
+    pub(crate) fn commanded_n(&self, now: Instant) -> Option<&InFrame<DVec3>> {
+        fresh(&self.commanded_n, now)
+    }
+
+    /// The force that the motors apply, unless it is old.
+    #[cfg(feature = "viewer")]
+    pub(crate) fn applied_n(&self, now: Instant) -> Option<&InFrame<DVec3>> {
+        fresh(&self.applied_n, now)
     }
 
     /// Where the probe is: as the model has it (which knows the clutch and the motion's scale), turned like the
@@ -169,6 +181,11 @@ impl DeviceView {
         let value = Pose { translation: contact.probe_m, rotation };
         Some(InFrame { frame_id: contact.frame_id.clone(), value })
     }
+}
+
+fn drawable(force_n: InFrame<DVec3>) -> Result<InFrame<DVec3>, NotDrawable> {
+    let is_drawable = !force_n.frame_id.is_empty() && is_drawable(force_n.value);
+    if is_drawable { Ok(force_n) } else { Err(NotDrawable) }
 }
 
 fn fresh<T>(heard: &Option<(Instant, T)>, now: Instant) -> Option<&T> {
@@ -220,11 +237,11 @@ mod tests {
             assert_eq!(view.hear_contact(now, wrong), Err(NotDrawable));
         }
         let base = || "base".to_owned();
-        assert!(view.hear_force(now, InFrame { frame_id: base(), value: DVec3::NAN }).is_err());
+        assert!(view.hear_command(now, InFrame { frame_id: base(), value: DVec3::NAN }).is_err());
         assert!(view.hear_pose(now, base(), [0.0; 7]).is_err());
         assert!(view.hear_pose(now, base(), [0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0, 1.0]).is_err());
         assert_eq!((view.revision(), view.contact(now)), (revision, Some(&contact(Mode::Touch))));
-        assert!(view.force_n(now).is_none());
+        assert!(view.commanded_n(now).is_none());
     }
 
     #[test]

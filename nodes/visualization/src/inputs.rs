@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use glam::DVec3;
 use node_kit::{Inbox, Log, NodeKit, StartError, Throttle, convert, topics};
 use r2r::geometry_msgs::msg::{PoseStamped, WrenchStamped};
 use r2r::rhombus_haptics_msgs::msg::{ContactState, SurfaceDisplacement};
@@ -52,7 +53,10 @@ struct Surface {
 
 struct DeviceInputs {
     contact: Newest<ContactState>,
-    force: Newest<WrenchStamped>,
+    command: Newest<WrenchStamped>,
+    /// Heard from the first page on.
+    #[cfg(feature = "viewer")]
+    applied: Option<Newest<WrenchStamped>>,
     pose: Newest<PoseStamped>,
     /// Stamp of the newest pose, ns.
     stamp_ns: i64,
@@ -66,7 +70,9 @@ impl Inputs {
             .map(|device| {
                 Ok(DeviceInputs {
                     contact: Newest::new(kit.subscribe_passing(&topics::CONTACT_STATE, device)?),
-                    force: Newest::new(kit.subscribe_passing(&topics::SERVO_CF, device)?),
+                    command: Newest::new(kit.subscribe_passing(&topics::SERVO_CF, device)?),
+                    #[cfg(feature = "viewer")]
+                    applied: None,
                     pose: Newest::new(kit.subscribe_passing(&topics::MEASURED_CP, device)?),
                     stamp_ns: 0,
                 })
@@ -84,13 +90,32 @@ impl Inputs {
         })
     }
 
+    /// Hear from now on what the motors of `devices` apply, which only pages show.
+    #[cfg(feature = "viewer")]
+    pub(crate) fn hear_applied_forces(
+        &mut self,
+        kit: &mut NodeKit,
+        devices: &[String],
+    ) -> Result<(), StartError> {
+        for (inputs, device) in self.devices.iter_mut().zip(devices) {
+            if inputs.applied.is_none() {
+                inputs.applied = Some(Newest::new(kit.subscribe_passing(&topics::MEASURED_CF, device)?));
+            }
+        }
+        Ok(())
+    }
+
     /// Keep the newest of what has arrived and nothing else. After every spin.
     pub(crate) fn receive(&mut self, now: Instant) {
         self.mesh.receive(now);
         self.displacement.receive(now);
         for device in &mut self.devices {
             device.contact.receive(now);
-            device.force.receive(now);
+            device.command.receive(now);
+            #[cfg(feature = "viewer")]
+            if let Some(applied) = &mut device.applied {
+                applied.receive(now);
+            }
             device.pose.receive(now);
         }
     }
@@ -190,10 +215,12 @@ impl DeviceInputs {
         if let Some((when, state)) = self.contact.take() {
             seen.push(("contact_state", view.hear_contact(when, messages::contact(&state))));
         }
-        if let Some((when, wrench)) = self.force.take() {
-            let frame_id = frame_of_message(&wrench.header.frame_id).to_owned();
-            let force_n = InFrame { frame_id, value: convert::dvec3_of_vector(&wrench.wrench.force) };
-            seen.push(("servo_cf", view.hear_force(when, force_n)));
+        if let Some((when, wrench)) = self.command.take() {
+            seen.push(("servo_cf", view.hear_command(when, force(&wrench))));
+        }
+        #[cfg(feature = "viewer")]
+        if let Some((when, wrench)) = self.applied.as_mut().and_then(Newest::take) {
+            seen.push(("measured_cf", view.hear_applied(when, force(&wrench))));
         }
         if let Some((when, pose)) = self.pose.take() {
             self.stamp_ns = convert::stamp_ns(&pose.header.stamp);
@@ -202,6 +229,11 @@ impl DeviceInputs {
         }
         seen
     }
+}
+
+fn force(wrench: &WrenchStamped) -> InFrame<DVec3> {
+    let frame_id = frame_of_message(&wrench.header.frame_id).to_owned();
+    InFrame { frame_id, value: convert::dvec3_of_vector(&wrench.wrench.force) }
 }
 
 /// The newest message of a topic and when it came, until somebody looks at it.

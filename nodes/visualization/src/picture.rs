@@ -110,7 +110,7 @@ impl Turn<'_> {
             self.drawings.push(drawing::probe(id, &probe.frame_id, centre_m, radius_m, clutched));
         }
         // A force in another frame than the probe belongs to no pose that is known here.
-        let force_n = device.force_n(self.now).filter(|force_n| force_n.frame_id == probe.frame_id);
+        let force_n = device.commanded_n(self.now).filter(|force_n| force_n.frame_id == probe.frame_id);
         let Some(force_n) = force_n else { return };
         let arrow_m = force_n.value * self.look.force_scale_m_per_n;
         let saturated = contact.is_some_and(|contact| contact.saturated);
@@ -180,7 +180,7 @@ mod tests {
         };
         device.hear_contact(now, contact).unwrap();
         let force_n = if mode == Mode::None { DVec3::ZERO } else { DVec3::Z };
-        device.hear_force(now, InFrame { frame_id: "base".to_owned(), value: force_n }).unwrap();
+        device.hear_command(now, InFrame { frame_id: "base".to_owned(), value: force_n }).unwrap();
         device
     }
 
@@ -212,7 +212,7 @@ mod tests {
     fn a_force_in_another_frame_than_the_probe_is_not_drawn() {
         let (mut picture, now) = (picture(), Instant::now());
         let mut device = device(now, Mode::Touch);
-        device.hear_force(now, InFrame { frame_id: "elsewhere".to_owned(), value: DVec3::Z }).unwrap();
+        device.hear_command(now, InFrame { frame_id: "elsewhere".to_owned(), value: DVec3::Z }).unwrap();
         assert_eq!(things(&picture.update(now, None, &[device])), ["probe", "proxy"]);
     }
 }

@@ -254,6 +254,7 @@ impl Running {
             return Ok(());
         }
         self.is_shown = true;
+        inputs.hear_applied_forces(kit, &self.scene.session.devices)?;
         inputs.look_at_surface();
         inputs.look_at_devices();
         let ros_s = feed::ros_seconds(kit);
@@ -265,8 +266,8 @@ impl Running {
         }
         session.parameters.advance(now);
         let parameters = session.parameters.news();
-        let rates_hz = session.health.pose_rates_hz(now);
-        let update = session.feed.update(now, ros_s, inputs, &rates_hz);
+        let drivers = session.health.drivers(now);
+        let update = session.feed.update(now, ros_s, inputs, &drivers);
         let status = if is_health_due { Some(self.health(kit, now, inputs)?) } else { None };
         if update.is_empty() && parameters.is_none() && status.is_none() {
             return Ok(());

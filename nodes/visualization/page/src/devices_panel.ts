@@ -1,5 +1,6 @@
 // One card for each device: what it does now, in numbers that can be read from a distance.
 
+import { ForceDifference } from "./applied.ts";
 import { h, write } from "./dom.ts";
 import type { DeviceState } from "./frames.ts";
 import { length } from "./vector.ts";
@@ -13,6 +14,8 @@ interface Card {
   readonly state: HTMLElement;
   readonly mode: HTMLElement;
   readonly numbers: readonly HTMLElement[];
+  readonly note: HTMLElement;
+  readonly difference: ForceDifference;
 }
 
 const NUMBERS = [
@@ -56,6 +59,9 @@ export class DevicesPanel {
       ];
       card.numbers.forEach((element, number) => write(element, values[number]));
       write(card.mode, describeMode(state));
+      const note = card.difference.update(performance.now(), state, card.state.textContent ?? "");
+      write(card.note, note);
+      card.note.hidden = note === "";
       card.root.classList.toggle("saturated", state?.saturated ?? false);
     });
   }
@@ -95,6 +101,9 @@ function makeCard(name: string): Card {
   NUMBERS.forEach(([title, unit], i) => {
     list.append(h("div", {}, h("dt", {}, `${title} `, h("span", { class: "unit" }, unit)), numbers[i]));
   });
+  const note = h("p", { class: "note" });
+  note.hidden = true;
   const head = h("div", { class: "device-head" }, mark, h("h3", {}, name === "" ? "haptic_device" : name), state, mode);
-  return { root: h("article", { class: "device" }, head, list), mark, state, mode, numbers };
+  const root = h("article", { class: "device" }, head, list, note);
+  return { root, mark, state, mode, numbers, note, difference: new ForceDifference() };
 }

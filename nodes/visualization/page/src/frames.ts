@@ -36,6 +36,9 @@ export interface DeviceState {
   readonly mode: Mode;
   readonly contactHeard: boolean;
   readonly forceHeard: boolean;
+  /** The force is what the motors apply; otherwise it is the model's command, where nobody says what is applied. */
+  readonly forceApplied: boolean;
+  readonly commandHeard: boolean;
   readonly poseHeard: boolean;
   readonly saturated: boolean;
   readonly clutched: boolean;
@@ -48,6 +51,8 @@ export interface DeviceState {
   readonly normal: Vec3;
   /** Force on the hand, N. */
   readonly force: Vec3;
+  /** What the model commands, N. */
+  readonly command: Vec3;
   /** Positive into the body, m. */
   readonly depthM: number;
   readonly normalForceN: number;
@@ -162,6 +167,8 @@ function decodeDevice(view: DataView, at: number): DeviceState | null {
     mode,
     contactHeard: (flags & 1) !== 0,
     forceHeard: (flags & 2) !== 0,
+    forceApplied: (flags & 32) !== 0,
+    commandHeard: (flags & 64) !== 0,
     poseHeard: (flags & 4) !== 0,
     saturated: (flags & 8) !== 0,
     clutched: (flags & 16) !== 0,
@@ -171,6 +178,7 @@ function decodeDevice(view: DataView, at: number): DeviceState | null {
     proxy: vector(44),
     normal: vector(56),
     force: vector(68),
+    command: vector(112),
     depthM: number(80),
     normalForceN: number(84),
     stiffnessNPerM: number(88),
@@ -188,13 +196,15 @@ function withoutNotFinite(state: DeviceState): DeviceState {
     state.mode === "none" ||
     (isFinite3(state.proxy) && isFinite3(state.normal) && Number.isFinite(state.depthM));
   const force = !state.forceHeard || isFinite3(state.force);
+  const command = !state.commandHeard || isFinite3(state.command);
   const pose = !state.poseHeard || isFinite3(state.handle);
-  if (contact && touch && force && pose) return state;
+  if (contact && touch && force && command && pose) return state;
   return {
     ...state,
     contactHeard: state.contactHeard && contact && touch,
     mode: contact && touch ? state.mode : "none",
     forceHeard: state.forceHeard && force,
+    commandHeard: state.commandHeard && command,
     poseHeard: state.poseHeard && pose,
   };
 }

@@ -16,6 +16,10 @@ export const QUANTITIES = [
   { key: "missed", title: "Missed deadlines", unit: "1/s", decimals: 0, least: 1 },
 ] as const;
 
+/** What is recorded of each device: what is plotted, and both forces for the CSV. */
+const RECORDED = QUANTITIES.length + 2;
+export const [APPLIED, COMMANDED] = [QUANTITIES.length, QUANTITIES.length + 1];
+
 const HEIGHT_PX = 74;
 const LAST_HEIGHT_PX = 96;
 /** Time between two drawings, ms. */
@@ -200,7 +204,7 @@ export class Plots {
 
 /** Where a quantity of a device is in a row. */
 export function column(device: number, quantity: number): number {
-  return device * QUANTITIES.length + quantity;
+  return device * RECORDED + quantity;
 }
 
 /** Limits of an axis: 0 is always in it, and noise around nothing does not fill it. */

@@ -6,7 +6,7 @@ import type { DeviceState, StateFrame, SurfaceFrame } from "./frames.ts";
 import { History } from "./history.ts";
 import { length } from "./vector.ts";
 import type { Status } from "./messages.ts";
-import { column, QUANTITIES } from "./plots.ts";
+import { APPLIED, column, COMMANDED } from "./plots.ts";
 import { Series } from "./series.ts";
 
 export class Recorder {
@@ -21,7 +21,7 @@ export class Recorder {
   /** Begin anew for these devices. */
   setDevices(devices: readonly string[]): void {
     this.devices = devices;
-    this.series = new Series(devices.length * QUANTITIES.length + 1);
+    this.series = new Series(column(devices.length, 0) + 1);
     this.growth = devices.map(() => new Growth());
     this.row = new Float64Array(this.series.columns);
     this.history.clear();
@@ -50,6 +50,8 @@ export class Recorder {
       row[column(device, 2)] = one.poseHeard || one.contactHeard ? one.poseRateHz : NaN;
       row[column(device, 3)] = one.contactHeard ? 1000 * one.latencyS : NaN;
       row[column(device, 4)] = missed;
+      row[column(device, APPLIED)] = one.forceHeard && one.forceApplied ? length(one.force) : NaN;
+      row[column(device, COMMANDED)] = one.commandHeard ? length(one.command) : NaN;
     });
     row[this.serverColumn] = state.serverTimeS;
     this.series.push(timeS, row);

@@ -28,6 +28,7 @@ export interface DeviceBytes {
   latency?: number;
   rate?: number;
   handle?: number[];
+  command?: number[];
 }
 
 /** A state frame. */
@@ -37,7 +38,7 @@ export function stateFrame(sequence: number, devices: DeviceBytes[]): ArrayBuffe
     parts.u8(one.mode ?? 0, one.flags ?? 0, 0, 0).u32(0).f64(one.stamp ?? 0);
     parts.f32(...(one.probe ?? [0, 0, 0]), ...(one.quaternion ?? [0, 0, 0, 1]), ...(one.proxy ?? [0, 0, 0]));
     parts.f32(...(one.normal ?? [0, 0, 1]), ...(one.force ?? [0, 0, 0]), one.depth ?? 0, one.normalForce ?? 0);
-    parts.f32(one.stiffness ?? 0, one.latency ?? NaN, one.rate ?? 0, ...(one.handle ?? [0, 0, 0]), 0, 0, 0, 0);
+    parts.f32(one.stiffness ?? 0, one.latency ?? NaN, one.rate ?? 0, ...(one.handle ?? [0, 0, 0]), ...(one.command ?? [0, 0, 0]), 0);
   }
   return parts.done();
 }

@@ -56,18 +56,18 @@ test("a state frame has every field where the protocol puts it", () => {
   const frame = decode(
     stateFrame(5, [
       {
-        mode: 2, flags: 0b11111, stamp: 12.5, probe: [1, 2, 3], quaternion: [0, 0, 0, 1], proxy: [4, 5, 6],
+        mode: 2, flags: 0b1111111, stamp: 12.5, probe: [1, 2, 3], quaternion: [0, 0, 0, 1], proxy: [4, 5, 6],
         normal: [0, 0, 1], force: [7, 8, 9], depth: 0.25, normalForce: 2, stiffness: 200, latency: 0.5, rate: 1000,
-        handle: [10, 11, 12],
+        handle: [10, 11, 12], command: [13, 14, 15],
       },
     ]),
   );
   assert.equal(frame.kind, "state");
   if (frame.kind !== "state") return;
   assert.deepEqual(frame.devices[0], {
-    mode: "grasp", contactHeard: true, forceHeard: true, poseHeard: true, saturated: true, clutched: true,
+    mode: "grasp", contactHeard: true, forceHeard: true, forceApplied: true, commandHeard: true, poseHeard: true, saturated: true, clutched: true,
     stampS: 12.5, probe: [1, 2, 3], probeQuaternion: [0, 0, 0, 1], proxy: [4, 5, 6], normal: [0, 0, 1],
-    force: [7, 8, 9], depthM: 0.25, normalForceN: 2, stiffnessNPerM: 200, latencyS: 0.5, poseRateHz: 1000,
+    force: [7, 8, 9], command: [13, 14, 15], depthM: 0.25, normalForceN: 2, stiffnessNPerM: 200, latencyS: 0.5, poseRateHz: 1000,
     handle: [10, 11, 12],
   });
 });

@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use glam::DVec3;
 use node_kit::{Log, NodeKit, StartError, Throttle, TransformListener, convert};
 use rhombus_chain::{FrameTree, Pose};
 use scene::{Scene, read_stiffness_factors};
 
+use super::health::Driver;
 use super::link::{Numbered, Shown};
-use super::protocol::{self, ContactState, DeviceState};
-use crate::device_view::DeviceView;
+use super::protocol::{self, ContactState, DeviceState, Force};
+use crate::device_view::{DeviceView, InFrame};
 use crate::inputs::Inputs;
 
 /// Without news the state is repeated this often.
@@ -85,21 +87,16 @@ impl Feed {
     pub(crate) fn unplaced(&self, view: &DeviceView, now: Instant) -> Option<String> {
         let heard = [
             view.contact(now).map(|contact| &contact.frame_id),
-            view.force_n(now).map(|force_n| &force_n.frame_id),
+            view.commanded_n(now).map(|force_n| &force_n.frame_id),
+            view.applied_n(now).map(|force_n| &force_n.frame_id),
             view.pose(now).map(|pose| &pose.frame_id),
         ];
         let unplaced = |frame_id: &&String| self.body_from(frame_id).is_none();
         heard.into_iter().flatten().find(unplaced).cloned()
     }
 
-    /// What has changed since the last turn. `ros_s` is the time that stamps have now; `pose_rate_hz` is for each device.
-    pub(crate) fn update(
-        &mut self,
-        now: Instant,
-        ros_s: f64,
-        inputs: &Inputs,
-        pose_rate_hz: &[Option<f32>],
-    ) -> Update {
+    /// What has changed since the last turn. `ros_s` is the time that stamps have now; `drivers` has one for each device.
+    pub(crate) fn update(&mut self, now: Instant, ros_s: f64, inputs: &Inputs, drivers: &[Driver]) -> Update {
         let mut update = Update::default();
         if let Some((surface, revision)) = inputs.surface() {
             let version = surface.topology_version();
@@ -116,9 +113,9 @@ impl Feed {
                 self.surface_revision = Some(revision);
             }
         }
-        let views = inputs.views().iter().zip(pose_rate_hz);
+        let views = inputs.views().iter().zip(drivers);
         let devices: Vec<DeviceState> =
-            views.map(|(view, pose_rate_hz)| self.device(view, now, ros_s, *pose_rate_hz)).collect();
+            views.map(|(view, driver)| self.device(view, now, ros_s, driver)).collect();
         let is_due = self
             .told
             .as_ref()
@@ -130,7 +127,7 @@ impl Feed {
         update
     }
 
-    fn device(&self, view: &DeviceView, now: Instant, ros_s: f64, pose_rate_hz: Option<f32>) -> DeviceState {
+    fn device(&self, view: &DeviceView, now: Instant, ros_s: f64, driver: &Driver) -> DeviceState {
         let contact = || {
             let contact = view.contact(now)?;
             let body_from_frame = self.body_from(&contact.frame_id)?;
@@ -151,15 +148,20 @@ impl Feed {
                 latency_s: (latency_s.abs() < SAME_CLOCK_S).then_some(latency_s),
             })
         };
-        let force_n = || {
-            let force_n = view.force_n(now)?;
-            Some(self.body_from(&force_n.frame_id)?.rotate(force_n.value))
+        let in_body =
+            |force_n: &InFrame<DVec3>| Some(self.body_from(&force_n.frame_id)?.rotate(force_n.value));
+        let commanded_n = view.commanded_n(now).and_then(in_body);
+        // The command of a model is no force on a hand whose driver is silent.
+        let force = match driver.publishes_force {
+            true => view.applied_n(now).and_then(in_body).map(Force::Applied),
+            false => commanded_n.map(Force::Commanded),
         };
         let handle = || {
             let pose = view.pose(now)?;
             Some(self.body_from(&pose.frame_id)? * pose.value)
         };
-        DeviceState { contact: contact(), force_n: force_n(), handle: handle(), pose_rate_hz }
+        let pose_rate_hz = driver.pose_rate_hz;
+        DeviceState { contact: contact(), force, commanded_n, handle: handle(), pose_rate_hz }
     }
 
     fn body_from(&self, frame_id: &str) -> Option<Pose> {

@@ -36,6 +36,15 @@ struct Device {
     state: Option<OperatingState>,
 }
 
+/// What is known of the driver of one device.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Driver {
+    /// Poses a second as it counts them; where it says nothing, as the model does, Hz.
+    pub(crate) pose_rate_hz: Option<f32>,
+    /// Somebody publishes what its motors apply.
+    pub(crate) publishes_force: bool,
+}
+
 /// Who publishes what a page shows.
 #[derive(Clone, Debug, Default)]
 struct Graph {
@@ -44,6 +53,8 @@ struct Graph {
     contacts: Vec<usize>,
     /// Publishers of each device's pose.
     poses: Vec<usize>,
+    /// Publishers of what each device's motors apply.
+    forces: Vec<usize>,
     nodes: BTreeSet<String>,
 }
 
@@ -106,6 +117,7 @@ impl Health {
             let poses = kit.publishers_of(&topics::MEASURED_CP, &device.name)?;
             graph.contacts.push(contacts.len());
             graph.poses.push(poses.len());
+            graph.forces.push(kit.publishers_of(&topics::MEASURED_CF, &device.name)?.len());
             graph.nodes.extend(contacts.into_iter().chain(poses).map(|publisher| publisher.node));
         }
         graph.nodes.insert(kit.full_name().to_owned());
@@ -175,30 +187,38 @@ impl Health {
         devices.zip(pointers.iter().copied().zip(unplaced)).map(health).collect()
     }
 
-    /// Poses a second that each device's driver counts, Hz; where it says nothing, those that the model counts.
-    pub(crate) fn pose_rates_hz(&self, now: Instant) -> Vec<Option<f32>> {
-        let fresh = || {
-            let is_fresh = move |when: &Instant| now.duration_since(*when) <= STALE_AFTER;
-            self.statuses.values().filter(move |(when, _)| is_fresh(when)).map(|(_, status)| status)
-        };
+    /// What is known of each device's driver.
+    pub(crate) fn drivers(&self, now: Instant) -> Vec<Driver> {
         let number = |status: &NodeHealth, key: &str| {
             status.values.get(key)?.parse::<f32>().ok().filter(|number| number.is_finite())
         };
-        let rate = |device: &Device| {
-            let namespace = format!("{}{}", self.prefix, device.name);
-            let namespace = namespace.trim_end_matches('/');
-            let is_driver =
-                |status: &&NodeHealth| status.name.rsplit_once('/').is_some_and(|(of, _)| of == namespace);
+        let forces = self.graph.forces.iter().copied().chain(std::iter::repeat(0));
+        let driver = |(device, forces): (&Device, usize)| {
             let subject = if device.name.is_empty() { "device" } else { &device.name };
             let subject = format!(": {subject}");
-            let driver = fresh().filter(is_driver).find_map(|status| number(status, "pose_rate_hz"));
-            driver.or_else(|| {
-                fresh()
+            let driver = self.of_driver(now, device).find_map(|status| number(status, "pose_rate_hz"));
+            let model = || {
+                self.fresh(now)
                     .filter(|status| status.name.ends_with(&subject))
                     .find_map(|status| number(status, "rate_hz"))
-            })
+            };
+            Driver { pose_rate_hz: driver.or_else(model), publishes_force: forces > 0 }
         };
-        self.devices.iter().map(rate).collect()
+        self.devices.iter().zip(forces).map(driver).collect()
+    }
+
+    /// What was said lately.
+    fn fresh(&self, now: Instant) -> impl Iterator<Item = &NodeHealth> {
+        let is_fresh = move |when: &Instant| now.duration_since(*when) <= STALE_AFTER;
+        self.statuses.values().filter(move |(when, _)| is_fresh(when)).map(|(_, status)| status)
+    }
+
+    /// What the driver of a device said lately.
+    fn of_driver(&self, now: Instant, device: &Device) -> impl Iterator<Item = &NodeHealth> {
+        let namespace = format!("{}{}", self.prefix, device.name);
+        self.fresh(now).filter(move |status| {
+            status.name.rsplit_once('/').is_some_and(|(of, _)| of == namespace.trim_end_matches('/'))
+        })
     }
 }
 

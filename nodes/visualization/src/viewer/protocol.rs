@@ -8,7 +8,7 @@ mod texts;
 
 pub(crate) use asked::{Asked, MAX_FRAME};
 pub(crate) use mesh::mesh;
-pub(crate) use state::{ContactState, DeviceState, at_page, state};
+pub(crate) use state::{ContactState, DeviceState, Force, at_page, state};
 pub(crate) use surface::surface;
 pub(crate) use texts::{
     DeviceHealth, Hello, NodeHealth, ShownParameter, chains, hello, parameter_result, parameters, pointer,
