@@ -1,6 +1,7 @@
 """A hand that is led by a pointer over DDS: the driver with targets as the viewer's page sends them, and the model that it presses."""
 
 import math
+import re
 import time
 
 import pytest
@@ -192,6 +193,25 @@ def test_targets_that_cannot_be_followed_move_nothing_and_are_counted(start, pee
     _, _, values = peer.new_status("/haptic_device: pointer")
     assert (values["targets"], values["untimely"]) == ("1", "4")
     assert pointer.handle() != where
+
+
+def test_a_target_out_of_reach_is_not_followed_to_a_place_beside_it_and_named(session, peer):
+    _, pointer = session()
+    pointer.lead(pressed(0.006), 1.5)
+    force_n = pointer.forces[-1].wrench.force.z
+    assert force_n > 0.1
+    # Deep beside the block, and farther than the device reaches.
+    beside = (0.3, 0.007, 0.02)
+    x = pointer.handle()[0]
+    pointer.lead(beside, 1.5)
+    assert abs(pointer.handle()[0] - x) < 1e-3, "the hand stays where it was"
+    assert pointer.forces[-1].wrench.force.z < 0.1 * force_n, "and has let go: the tissue has pushed it out"
+    level, summary, values = peer.statuses["/haptic_device: pointer"][-1]
+    assert (level, values["is_out_of_reach"], values["is_led"]) == (1, "true", "false")
+    assert re.fullmatch(r"[1-9]\d* targets out of reach of the device", summary)
+    assert int(values["out_of_reach"]) > 50
+    pointer.until(CLEAR, lambda: pointer.is_at(CLEAR, 1e-3), "what is in reach is followed")
+    assert peer.new_status("/haptic_device: pointer")[2]["is_out_of_reach"] == "false"
 
 
 def test_of_two_who_point_neither_is_followed_and_both_are_named(session, peer):

@@ -6,6 +6,7 @@ import time
 import peer
 import pytest
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PoseStamped
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import GetParameters
@@ -158,6 +159,21 @@ def test_a_page_takes_the_pointer_moves_it_and_lets_go_by_silence(start):
     session.wait_for(lambda: not grasps[-1].data, "a page that is gone holds nothing")
     topic = session.node.resolve_topic_name("pointer_target")
     session.wait_for(lambda: session.node.count_publishers(topic) == 0, "nobody publishes targets any more")
+
+
+def test_a_device_whose_driver_says_that_the_target_is_out_of_reach_is_said_so_to_pages(start):
+    session = start({"devices": ["left", "right"]})
+    page = session.page()
+    diagnostics = session.node.create_publisher(DiagnosticArray, "/diagnostics", 10)
+
+    def say(out_of_reach):
+        values = [KeyValue(key="is_out_of_reach", value=out_of_reach)]
+        name = f"/{session.namespace}/right/haptic_device: pointer"
+        diagnostics.publish(DiagnosticArray(status=[DiagnosticStatus(name=name, values=values)]))
+
+    told = lambda: [each["out_of_reach"] for each in (page.last("status") or {"devices": []})["devices"]]
+    session.wait_for(lambda: told() == [False, True], "it is said", lambda: say("true"))
+    session.wait_for(lambda: told() == [False, False], "it is in reach again", lambda: say("false"))
 
 
 def test_targets_arrive_within_milliseconds(start):

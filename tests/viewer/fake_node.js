@@ -13,6 +13,11 @@ const DENT_M = 0.02;
 
 export class FakeNode {
   publishers = { body_mesh: 1, surface_displacement: 1, contact_state: 1 };
+  /** What the status says of the device, where it is not the usual. */
+  device = {};
+  /** Whether a page that asks for the pointer gets it; how many gave it back. */
+  grants = true;
+  released = 0;
   pages = new Set();
   /** Numbers of the frames of each kind. */
   sequence = [0, 0, 0, 0];
@@ -94,7 +99,10 @@ export class FakeNode {
     socket.on("close", () => this.pages.delete(socket));
     socket.on("message", (data) => {
       const message = JSON.parse(data);
-      if (message.type === "ping") socket.send(JSON.stringify({ type: "pong", t: message.t }));
+      const answer = (text) => socket.send(JSON.stringify(text));
+      if (message.type === "ping") answer({ type: "pong", t: message.t });
+      if (message.type === "pointer_take") answer({ type: "pointer", device: "", granted: this.grants, reason: this.grants ? "" : "another page moves it" });
+      if (message.type === "pointer_release") this.released += 1;
     });
     for (const message of [this.hello(), CHAINS, { type: "parameters", parameters: PARAMETERS }, this.status()]) {
       socket.send(JSON.stringify(message));
@@ -111,7 +119,7 @@ export class FakeNode {
   }
 
   status() {
-    const device = { name: "", operating_state: "ENABLED", homed: true, busy: false, pointer: false, pose_age_s: 0.001, alive: true };
+    const device = { name: "", operating_state: "ENABLED", homed: true, busy: false, pointer: false, pose_age_s: 0.001, alive: true, ...this.device };
     const force = { name: "/haptic_device: force", level: "ok", summary: "poses are answered", values: { missed_deadlines: "0" } };
     const { publishers, pages } = this;
     return { type: "status", nodes: [force], devices: [device], publishers, pages: pages.size, not_drawn: {} };

@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { keep, launch, open, read, until } from "./browser.js";
+import { keep, launch, open, placeOnBody, read, until } from "./browser.js";
 import { FakeNode } from "./fake_node.js";
 
 let browser;
@@ -116,6 +116,21 @@ test("a publisher of which the node says that it is gone is said, and so is its 
   node.publishers = { ...node.publishers, contact_state: 1 };
   node.say(node.status());
   await page.getByText(/Nothing comes on contact_state/).waitFor({ state: "detached" });
+});
+
+test("a cursor that the device does not reach is said where the hand is shown", async (t) => {
+  const { node, page } = await visit(t);
+  node.device = { pointer: true, out_of_reach: true };
+  node.say(node.status());
+  await until(page, () => window.rhombus.pointer.device !== null);
+  const { x, y } = await placeOnBody(page);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.getByText("out of the device's reach").waitFor();
+  await keep(page, "out-of-reach");
+  node.device = { pointer: true };
+  await page.getByText("pressing", { exact: true }).waitFor();
+  await page.mouse.up();
 });
 
 test("a node that hangs is said to be silent within about a second, and nothing old looks like new", async (t) => {

@@ -4,7 +4,7 @@
 mod lead;
 mod targets;
 
-pub use targets::{NotFinite, Target, TargetSender, Targets};
+pub use targets::{NotATarget, Target, TargetSender, Targets};
 
 use glam::DVec3;
 
@@ -30,7 +30,8 @@ pub struct Settings {
 
 /// A handle led by a pointer. Its clock is the number of commands, as that of the simulated device: a target is valid for a
 /// number of periods. Without a valid one the hand lets go of the place where it was: only its damper is left, so that
-/// whatever is pressed pushes the handle out. With the next one it sets off from where the handle then is.
+/// whatever is pressed pushes the handle out. With the next one it sets off from where the handle then is. A target lies in
+/// the workspace: a place outside is none ([`NotATarget`]).
 #[derive(Debug)]
 pub struct PointerDevice {
     description: Description,
@@ -84,7 +85,7 @@ impl Device for PointerDevice {
             return Ok(());
         };
         let from = self.aim.unwrap_or_else(|| self.handle.position());
-        let velocity_m_per_s = self.lead.velocity_m_per_s(from, LIMITS.workspace.nearest(target));
+        let velocity_m_per_s = self.lead.velocity_m_per_s(from, target);
         self.handle
             .advance(wrench, |since_s| Aim { position: from + since_s * velocity_m_per_s, velocity_m_per_s });
         self.aim = Some(self.lead.after_a_period(from, velocity_m_per_s));
@@ -221,21 +222,26 @@ mod tests {
     }
 
     #[test]
-    fn targets_outside_the_workspace_lead_to_its_edge() {
-        for (far, edge) in [
-            (DVec3::new(1.0, 0.0, 0.0), DVec3::new(0.18, 0.0, 0.0)),
-            (DVec3::new(0.0, 0.0, -1e300), DVec3::new(0.0, 0.0, -0.15)),
-        ] {
-            let (mut device, mut sender) = device();
-            for _ in 0..20 {
-                sender.send(Target::new(far, 0.3).unwrap());
-                for _ in 0..100 {
-                    device.command(&Wrench::ZERO).unwrap();
-                    assert!(device.read().unwrap().is_finite());
-                }
+    fn a_hand_that_is_pointed_out_of_the_workspace_goes_nowhere_and_one_at_its_edge_stays_inside() {
+        let (mut device, mut sender) = device();
+        for far in [DVec3::new(0.3, 0.0, 0.05), DVec3::new(0.0, 0.0, -1e300)] {
+            // As whoever hears targets does: what is none is not sent.
+            let sent = Target::new(far, 0.3).map(|target| sender.send(target));
+            assert!(sent.is_err());
+            for _ in 0..500 {
+                device.command(&Wrench::ZERO).unwrap();
             }
-            assert!(device.read().unwrap().pose.translation.distance(edge) < 1e-6);
+            assert_eq!(device.read().unwrap().pose.translation, START);
         }
+        let edge = DVec3::new(0.18, 0.0, 0.0);
+        for _ in 0..20 {
+            sender.send(Target::new(edge, 0.3).unwrap());
+            for _ in 0..100 {
+                device.command(&Wrench::ZERO).unwrap();
+                assert!(LIMITS.workspace.contains(device.read().unwrap().pose.translation * (1.0 - 1e-12)));
+            }
+        }
+        assert!(device.read().unwrap().pose.translation.distance(edge) < 1e-6);
     }
 
     #[test]

@@ -154,8 +154,10 @@ impl Driver {
         self.motor.beat();
         self.emergency_stop.take(kit, &self.motor)?;
         #[cfg(feature = "pointer")]
-        if let Some(pointer) = &mut self.pointer {
-            pointer.take(kit);
+        if let Some(pointer) = &mut self.pointer
+            && pointer.take(kit)
+        {
+            kit.publish_diagnostics(vec![pointer.status()])?;
         }
         if self.forces.take(kit, &mut self.motor) {
             self.desk.follow_again(kit, &mut self.motor);

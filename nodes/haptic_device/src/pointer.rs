@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use devices::monotonic_ns;
-use devices::pointer::{Target, TargetSender};
+use devices::pointer::{NotATarget, Target, TargetSender};
 use node_kit::{Inbox, Level, NodeKit, RemotePublisher, StartError, Status, Throttle, convert, topics};
 use r2r::geometry_msgs::msg::PoseStamped;
 use scene::Scene;
@@ -12,13 +12,15 @@ use serde_json::{Value, json};
 use crate::freshness::{Backlog, Freshness, age_ns};
 use crate::now::now_ns;
 use crate::placement::Placement;
-use crate::pointer_frames::PointerFrames;
+use crate::pointer_frames::{NoTarget, PointerFrames};
 use crate::sources::{names, trouble};
 
 /// Between two looks at who publishes the topic.
 const LOOK: Duration = Duration::from_millis(100);
 /// The same while nobody is known.
 const EAGER_LOOK: Duration = Duration::from_millis(10);
+/// Between two diagnostics of one who points to and fro over the edge of the reach.
+const LEAST_BETWEEN_NEWS: Duration = Duration::from_millis(100);
 /// Between two lines of one kind.
 const LINE: Duration = Duration::from_secs(1);
 
@@ -29,6 +31,8 @@ pub(crate) struct PointerCounts {
     pub(crate) followed: u64,
     /// Targets in a frame that leads nowhere, or not finite.
     pub(crate) rejected: u64,
+    /// Targets outside the device's workspace.
+    pub(crate) out_of_reach: u64,
     /// Targets that came too late, or out of order.
     pub(crate) untimely: u64,
     /// Targets while the topic had more than one publisher, or none known yet.
@@ -49,12 +53,18 @@ pub(crate) struct Pointer {
     ends_ns: u64,
     counts: PointerCounts,
     reported: PointerCounts,
+    /// When the newest target came, if that one was out of reach.
+    out_of_reach: Option<Instant>,
+    /// What the last diagnostics said of that, and when.
+    told_out_of_reach: bool,
+    told: Instant,
     lines: Lines,
 }
 
 /// One line a second for each kind of trouble.
 struct Lines {
     rejected: Throttle,
+    out_of_reach: Throttle,
     untimely: Throttle,
     contested: Throttle,
 }
@@ -89,12 +99,16 @@ impl Pointer {
             ends_ns: 0,
             counts: PointerCounts::default(),
             reported: PointerCounts::default(),
-            lines: Lines { rejected: line(), untimely: line(), contested: line() },
+            out_of_reach: None,
+            told_out_of_reach: false,
+            told: Instant::now(),
+            lines: Lines { rejected: line(), out_of_reach: line(), untimely: line(), contested: line() },
         })
     }
 
-    /// Passes on the newest of what arrived.
-    pub(crate) fn take(&mut self, kit: &NodeKit) {
+    /// Passes on the newest of what arrived. True when the diagnostics should not wait: whoever points has left the device's
+    /// reach, or come back into it.
+    pub(crate) fn take(&mut self, kit: &NodeKit) -> bool {
         self.look(kit, LOOK);
         self.backlog.begin_turn(monotonic_ns());
         let mut newest = None;
@@ -109,6 +123,13 @@ impl Pointer {
             self.hand.send(target);
         }
         self.backlog.end_turn(monotonic_ns());
+        self.is_out_of_reach() != self.told_out_of_reach && self.told.elapsed() >= LEAST_BETWEEN_NEWS
+    }
+
+    /// Whether the newest target, if it still counted, is out of reach.
+    fn is_out_of_reach(&self) -> bool {
+        let timeout = Duration::from_nanos(self.timeout_ns.unsigned_abs());
+        self.out_of_reach.is_some_and(|when| when.elapsed() < timeout)
     }
 
     /// The target of a message, if it is one to follow. It counts until it is as old as the time-out.
@@ -120,7 +141,16 @@ impl Pointer {
         let position = convert::pose_array(&message.pose);
         let position = [position[0], position[1], position[2]].into();
         let target = match self.frames.target(&message.header.frame_id, position, valid_for_s) {
-            Ok(target) => target,
+            Ok(target) => {
+                self.out_of_reach = None;
+                target
+            }
+            Err(refusal @ NoTarget::Place(NotATarget::OutOfReach(_))) => {
+                self.counts.out_of_reach += 1;
+                self.out_of_reach = Some(Instant::now());
+                self.lines.out_of_reach.warn(kit.log(), || format!("{}: not followed: {refusal}", name()));
+                return None;
+            }
             Err(refusal) => {
                 self.counts.rejected += 1;
                 self.lines.rejected.warn(kit.log(), || format!("{}: rejected: {refusal}", name()));
@@ -173,20 +203,25 @@ impl Pointer {
 
     /// The diagnostics, compared with those before.
     pub(crate) fn status(&mut self) -> Status {
-        let PointerCounts { followed, rejected, untimely, contested } = self.counts;
+        let PointerCounts { followed, rejected, out_of_reach, untimely, contested } = self.counts;
         let before = std::mem::replace(&mut self.reported, self.counts);
         let refused = (rejected - before.rejected) + (untimely - before.untimely);
+        let beyond = out_of_reach - before.out_of_reach;
+        (self.told_out_of_reach, self.told) = (self.is_out_of_reach(), Instant::now());
         let is_led = monotonic_ns() < self.ends_ns;
         let (level, summary) = match self.conflict() {
             Some(conflict) => (Level::Error, conflict),
+            None if beyond > 0 => (Level::Warn, format!("{beyond} targets out of reach of the device")),
             None if refused > 0 => (Level::Warn, format!("{refused} targets were not followed")),
             None if is_led => (Level::Ok, "a pointer leads the hand".to_owned()),
             None => (Level::Ok, "no pointer: the hand has let go".to_owned()),
         };
         Status::new(level, "pointer", summary)
             .with("is_led", is_led)
+            .with("is_out_of_reach", self.told_out_of_reach)
             .with("targets", followed)
             .with("rejected", rejected)
+            .with("out_of_reach", out_of_reach)
             .with("untimely", untimely)
             .with("contested", contested)
             .with("publisher", names(&self.publishers))
@@ -194,8 +229,14 @@ impl Pointer {
 
     /// The same for the closing report.
     pub(crate) fn closing(&self) -> Value {
-        let PointerCounts { followed, rejected, untimely, contested } = self.counts;
-        json!({"targets": followed, "rejected": rejected, "untimely": untimely, "contested": contested})
+        let PointerCounts { followed, rejected, out_of_reach, untimely, contested } = self.counts;
+        json!({
+            "targets": followed,
+            "rejected": rejected,
+            "out_of_reach": out_of_reach,
+            "untimely": untimely,
+            "contested": contested,
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Where a target on `pointer_target` is for the device: what its frame says, and whether it is a place at all.
 
-use devices::pointer::{NotFinite, Target};
+use devices::pointer::{NotATarget, Target};
 use glam::DVec3;
 use rhombus_chain::{Pose, frame_of_message};
 use thiserror::Error;
@@ -11,7 +11,7 @@ pub(crate) enum NoTarget {
     #[error("frame_id is \"{frame}\"; accepted here are {accepted}")]
     Frame { frame: String, accepted: String },
     #[error(transparent)]
-    NotFinite(#[from] NotFinite),
+    Place(#[from] NotATarget),
 }
 
 /// The frames in which a target may come, with the way from each to the device.
@@ -70,7 +70,7 @@ impl PointerFrames {
         if position.is_finite() {
             Ok(Target::new(position_in_device, valid_for_s)?)
         } else {
-            Err(NotFinite(position).into())
+            Err(NotATarget::NotFinite(position).into())
         }
     }
 }
@@ -83,7 +83,7 @@ mod tests {
     fn frames(motion_scale: f64) -> PointerFrames {
         let turn = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
         let scene_from_base = Pose { translation: DVec3::new(0.1, 0.0, 0.0), rotation: turn };
-        let scene_from_body = Pose { translation: DVec3::new(0.0, 0.0, 0.2), rotation: DQuat::IDENTITY };
+        let scene_from_body = Pose { translation: DVec3::new(0.0, 0.0, 0.1), rotation: DQuat::IDENTITY };
         let base_from_body = scene_from_base.inverse() * scene_from_body;
         PointerFrames::new("left/base", ("scene", scene_from_base), ("body", base_from_body), motion_scale)
     }
@@ -99,14 +99,14 @@ mod tests {
         assert_eq!(position(&frames, "left/base"), position(&frames, "/left/base"));
         // The base stands at x = 0.1 in the scene, its x axis along the scene's y.
         assert!(position(&frames, "scene").distance(DVec3::new(0.02, 0.0, 0.03)) < 1e-15);
-        assert!(position(&frames, "body").distance(DVec3::new(0.02, 0.0, 0.23)) < 1e-15);
+        assert!(position(&frames, "body").distance(DVec3::new(0.02, 0.0, 0.13)) < 1e-15);
     }
 
     #[test]
     fn the_probe_moves_motion_scale_times_as_far_as_the_handle() {
         let frames = frames(2.0);
         assert_eq!(position(&frames, "left/base"), DVec3::new(0.1, 0.02, 0.03), "where the handle is to go");
-        assert!(position(&frames, "body").distance(DVec3::new(0.01, 0.0, 0.115)) < 1e-15);
+        assert!(position(&frames, "body").distance(DVec3::new(0.01, 0.0, 0.065)) < 1e-15);
     }
 
     #[test]
@@ -120,5 +120,15 @@ mod tests {
         for x in [f64::NAN, f64::INFINITY, f64::MAX] {
             assert!(refusal("body", x).contains("not finite"), "{x}");
         }
+    }
+
+    #[test]
+    fn a_place_that_the_handle_does_not_reach_is_refused_whatever_frame_names_it() {
+        let far = DVec3::new(0.1, 0.0, 0.08);
+        let refusal = |frame: &str, motion_scale| frames(motion_scale).target(frame, far, 0.3);
+        // 0.18 m over the base, above what the handle reaches, unless the probe moves twice as far as the handle.
+        let out = refusal("body", 1.0).unwrap_err();
+        assert!(matches!(out, NoTarget::Place(NotATarget::OutOfReach(_))), "{out}");
+        assert!(refusal("body", 2.0).is_ok() && refusal("left/base", 1.0).is_ok());
     }
 }

@@ -5,6 +5,7 @@ use std::fmt;
 use glam::DVec3;
 use thiserror::Error;
 
+use crate::hand::LIMITS;
 use crate::latest::{self, latest};
 
 /// Where somebody points, and for how long that counts.
@@ -14,18 +15,34 @@ pub struct Target {
     valid_for_s: f64,
 }
 
-/// A target that is none.
+/// A place that the hand cannot go to.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("the position [{}, {}, {}] m is not finite", .0.x, .0.y, .0.z)]
-pub struct NotFinite(pub DVec3);
+pub enum NotATarget {
+    /// NaN or infinite.
+    #[error("the position [{}, {}, {}] m is not finite", .0.x, .0.y, .0.z)]
+    NotFinite(DVec3),
+    /// Outside the workspace, in the device frame.
+    #[error(
+        "the position [{:.3}, {:.3}, {:.3}] m in the device's frame is out of its reach: {} m around its z axis, z within {} m",
+        .0.x, .0.y, .0.z, LIMITS.workspace.radius_m, 0.5 * LIMITS.workspace.height_m
+    )]
+    OutOfReach(DVec3),
+}
 
 impl Target {
-    /// A place in the device frame, m, that counts for `valid_for_s` after it has reached the device.
+    /// A place in the workspace (device frame, m) that counts for `valid_for_s` after it has reached the device. A place
+    /// outside has no stand-in: the nearest one inside may lie deep in the body, beside what was pointed at.
     ///
     /// # Errors
-    /// [`NotFinite`].
-    pub fn new(position: DVec3, valid_for_s: f64) -> Result<Target, NotFinite> {
-        if position.is_finite() { Ok(Target { position, valid_for_s }) } else { Err(NotFinite(position)) }
+    /// [`NotATarget`].
+    pub fn new(position: DVec3, valid_for_s: f64) -> Result<Target, NotATarget> {
+        if !position.is_finite() {
+            Err(NotATarget::NotFinite(position))
+        } else if !LIMITS.workspace.contains(position) {
+            Err(NotATarget::OutOfReach(position))
+        } else {
+            Ok(Target { position, valid_for_s })
+        }
     }
 
     /// In the device frame, m.
@@ -120,21 +137,36 @@ mod tests {
     }
 
     #[test]
+    fn a_place_outside_the_workspace_is_no_target_and_its_edge_is_one() {
+        for edge in [DVec3::new(0.18, 0.0, 0.0), DVec3::new(0.0, -0.18, 0.15), DVec3::new(0.0, 0.0, -0.15)] {
+            assert_eq!(Target::new(edge, 0.3).unwrap().position(), edge);
+        }
+        for far in [DVec3::new(0.2, 0.0, 0.05), DVec3::new(0.13, 0.13, 0.0), DVec3::new(0.0, 0.0, -1e300)] {
+            assert_eq!(Target::new(far, 0.3), Err(NotATarget::OutOfReach(far)));
+        }
+        let text = Target::new(DVec3::new(0.2, 0.0, 0.05), 0.3).unwrap_err().to_string();
+        assert!(
+            text.contains("[0.200, 0.000, 0.050] m") && text.contains("0.18 m around its z axis"),
+            "{text}"
+        );
+    }
+
+    #[test]
     fn a_target_counts_for_its_time_in_periods_and_the_same_again_anew() {
         let mut targets = Targets::new();
         let mut sender = targets.sender();
         let mut validity = Validity::new(1e-3);
         assert_eq!(validity.period(targets.news()), None, "before the first");
         for _ in 0..2 {
-            sender.send(Target::new(DVec3::X, 0.003).unwrap());
+            sender.send(Target::new(0.1 * DVec3::X, 0.003).unwrap());
             for _ in 0..3 {
-                assert_eq!(validity.period(targets.news()), Some(DVec3::X));
+                assert_eq!(validity.period(targets.news()), Some(0.1 * DVec3::X));
             }
             assert_eq!(validity.period(targets.news()), None);
         }
-        sender.send(Target::new(DVec3::X, 0.003).unwrap());
-        sender.send(Target::new(DVec3::Y, 0.003).unwrap());
-        assert_eq!(validity.period(targets.news()), Some(DVec3::Y), "the newest wins");
+        sender.send(Target::new(0.1 * DVec3::X, 0.003).unwrap());
+        sender.send(Target::new(0.1 * DVec3::Y, 0.003).unwrap());
+        assert_eq!(validity.period(targets.news()), Some(0.1 * DVec3::Y), "the newest wins");
     }
 
     #[test]
@@ -143,7 +175,7 @@ mod tests {
         let mut sender = targets.sender();
         let mut validity = Validity::new(1e-3);
         for valid_for_s in [0.0, -1.0, f64::NAN] {
-            sender.send(Target::new(DVec3::X, valid_for_s).unwrap());
+            sender.send(Target::new(0.1 * DVec3::X, valid_for_s).unwrap());
             assert_eq!(validity.period(targets.news()), None);
         }
     }

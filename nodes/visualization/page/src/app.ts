@@ -180,6 +180,7 @@ export class App {
     this.notices.set("fault", faults.length > 0 ? `FAULT: ${faults.join(", ")} gives no force until it is enabled again.` : null);
     const unplaced = status.devices.filter((device) => device.unplaced_frame !== null).map((device) => device.unplaced_frame);
     this.notices.set("frames", unplaced.length > 0 ? `Not drawn: nothing connects ${unplaced.join(", ")} to the body's frame.` : null);
+    this.hand.onStatus(status.devices);
     this.views.status(status);
   }
 

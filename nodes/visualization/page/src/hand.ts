@@ -6,7 +6,7 @@
 import type { OrbitCamera } from "./camera.ts";
 import type { DeviceState } from "./frames.ts";
 import type { Aim } from "./link.ts";
-import type { PointerAnswer } from "./messages.ts";
+import type { DeviceStatus, PointerAnswer } from "./messages.ts";
 import type { Hit, RayTree } from "./raycast.ts";
 import { allowedDepth, DEPTHS_M, GRASP_DEPTH_M, hoverTarget, pressTarget, pullTarget } from "./target.ts";
 import { add, sub, type Vec3 } from "./vector.ts";
@@ -50,6 +50,8 @@ export class Hand {
   depthM: number = DEPTHS_M.first;
   hold: Hold = "free";
   reason = "";
+  /** The device does not go where the cursor is: outside its workspace. */
+  outOfReach = false;
   /** The newest target that was sent, m, body frame. */
   target: Vec3 | null = null;
   private motion: Motion = { kind: "away" };
@@ -159,6 +161,13 @@ export class Hand {
     }
     this.hold = "free";
     this.target = null;
+    this.around.changed();
+  }
+
+  /** What the node says of the devices. */
+  onStatus(devices: readonly DeviceStatus[]): void {
+    const device = devices.find((one) => one.name === this.device);
+    this.outOfReach = device?.out_of_reach ?? false;
     this.around.changed();
   }
 

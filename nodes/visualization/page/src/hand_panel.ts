@@ -81,7 +81,8 @@ export class HandPanel {
       ours: hand.pulling ? "pulling" : hand.active ? "pressing" : "yours, Esc lets go",
       refused: hand.reason === "" ? "another page holds the device" : hand.reason,
     };
-    this.hold.dataset.level = hand.hold === "refused" ? "error" : "";
-    write(this.hold, texts[hand.hold]);
+    const outOfReach = hand.hold === "ours" && hand.outOfReach;
+    this.hold.dataset.level = hand.hold === "refused" || outOfReach ? "error" : "";
+    write(this.hold, outOfReach ? "out of the device's reach" : texts[hand.hold]);
   }
 }

@@ -79,6 +79,8 @@ export interface DeviceStatus {
   readonly homed: boolean;
   readonly busy: boolean;
   readonly pointer: boolean;
+  /** What the cursor points at is outside its workspace. */
+  readonly out_of_reach: boolean;
   readonly pose_age_s: number | null;
   readonly alive: boolean;
   /** A frame of the device that nothing connects to the body; null: none. */
@@ -237,6 +239,7 @@ function device(json: Fields): DeviceStatus {
     homed: json.homed === true,
     busy: json.busy === true,
     pointer: json.pointer === true,
+    out_of_reach: json.out_of_reach === true,
     pose_age_s: limit(json.pose_age_s),
     alive: json.alive !== false,
     unplaced_frame: typeof json.unplaced_frame === "string" ? json.unplaced_frame : null,

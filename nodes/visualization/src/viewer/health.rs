@@ -179,6 +179,7 @@ impl Health {
                 homed: state.is_some_and(|state| state.is_homed),
                 busy: state.is_some_and(|state| state.is_busy),
                 pointer,
+                out_of_reach: self.is_out_of_reach(now, device),
                 pose_age_s: age.map(|age| age.as_secs_f64()),
                 alive: publishers > 0 && age.is_some_and(|age| age < SILENT_AFTER),
                 unplaced_frame,
@@ -205,6 +206,13 @@ impl Health {
             Driver { pose_rate_hz: driver.or_else(model), publishes_force: forces > 0 }
         };
         self.devices.iter().zip(forces).map(driver).collect()
+    }
+
+    /// Whether the driver of a device says that what a pointer points at is outside its workspace.
+    fn is_out_of_reach(&self, now: Instant, device: &Device) -> bool {
+        let says_so =
+            |status: &NodeHealth| status.values.get("is_out_of_reach").is_some_and(|value| value == "true");
+        self.of_driver(now, device).any(says_so)
     }
 
     /// What was said lately.

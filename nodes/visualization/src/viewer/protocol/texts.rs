@@ -46,6 +46,8 @@ pub(crate) struct DeviceHealth {
     pub(crate) busy: bool,
     /// It takes the targets of a page.
     pub(crate) pointer: bool,
+    /// The newest target is outside its workspace and is not followed, as its driver says.
+    pub(crate) out_of_reach: bool,
     pub(crate) pose_age_s: Option<f64>,
     pub(crate) alive: bool,
     /// A frame that it speaks in and that nothing connects to the body.
