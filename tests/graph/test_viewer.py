@@ -8,6 +8,7 @@ import peer
 import pytest
 import rclpy
 from crtk_msgs.msg import OperatingState
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PoseStamped, TransformStamped, WrenchStamped
 from rhombus_haptics_msgs.msg import ContactState
 from test_visualization import (
@@ -268,6 +269,28 @@ def test_a_publisher_that_is_gone_is_said_within_a_second(start):
     model.destroy_node()
     session.wait_for(lambda: not said()["devices"][0]["alive"] and said()["publishers"]["contact_state"] == 0, "it is gone")
     assert time.monotonic() - begun < 1.0
+
+
+def test_a_model_that_is_asked_nothing_is_there_as_long_as_it_says_how_it_is(start):
+    session = start()
+    model = rclpy.create_node("model", namespace=session.namespace)
+    model.create_publisher(ContactState, "contact_state", peer.reliable(1000))
+    diagnostics = model.create_publisher(DiagnosticArray, "/diagnostics", 10)
+    page = session.page()
+    count = lambda: (page.last("status") or {"publishers": {}})["publishers"].get("contact_state")
+    session.wait_for(lambda: count() == 1, "a model that has not said how it is yet")
+
+    def say():
+        status = DiagnosticStatus(name=f"/{session.namespace}/model: body", values=[KeyValue(key="surfaces", value="1")])
+        diagnostics.publish(DiagnosticArray(status=[status]))
+
+    named = lambda: [each["name"] for each in page.last("status")["nodes"]]
+    session.wait_for(lambda: f"/{session.namespace}/model: body" in named(), "its diagnostics", say)
+    assert count() == 1
+    # It hangs, and is still in the graph.
+    session.wait_for(lambda: count() == 0, "a model that says nothing any more")
+    session.wait_for(lambda: count() == 1, "it speaks again", say)
+    model.destroy_node()
 
 
 def test_a_large_mesh_passes(start):

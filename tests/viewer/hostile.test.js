@@ -118,6 +118,14 @@ test("a publisher of which the node says that it is gone is said, and so is its 
   await page.getByText(/Nothing comes on contact_state/).waitFor({ state: "detached" });
 });
 
+test("a device of which nothing comes is said, and so is its return", async (t) => {
+  const { node, page } = await visit(t);
+  node.device = { alive: false };
+  await page.getByText(/Nothing comes from haptic_device/).waitFor();
+  node.device = {};
+  await page.getByText(/Nothing comes from haptic_device/).waitFor({ state: "detached" });
+});
+
 test("a cursor that the device does not reach is said where the hand is shown", async (t) => {
   const { node, page } = await visit(t);
   node.device = { pointer: true, out_of_reach: true };

@@ -3,7 +3,7 @@
 import { Body } from "./body.ts";
 import { ContactLaw } from "./chain.ts";
 import { Connection, type ConnectionState } from "./connection.ts";
-import { missingPublishers } from "./diagnostics.ts";
+import { missingPublishers, silentDevices } from "./diagnostics.ts";
 import type { StateFrame, SurfaceFrame } from "./frames.ts";
 import { Hand } from "./hand.ts";
 import { Inbox } from "./inbox.ts";
@@ -174,7 +174,7 @@ export class App {
 
   private onStatus(status: Status): void {
     this.status = status;
-    const missing = missingPublishers(status.publishers);
+    const missing = [...missingPublishers(status.publishers), ...silentDevices(status.devices)];
     this.notices.set("publishers", missing.length > 0 ? missing.join(" ") : null);
     const faults = status.devices.filter((device) => device.operating_state === "FAULT").map((device) => device.name || "the device");
     this.notices.set("fault", faults.length > 0 ? `FAULT: ${faults.join(", ")} gives no force until it is enabled again.` : null);

@@ -1,6 +1,6 @@
 // Numbers from the nodes' diagnostics: which status says what, and how a count becomes a rate.
 
-import type { NodeStatus, Status } from "./messages.ts";
+import type { DeviceStatus, NodeStatus, Status } from "./messages.ts";
 
 /**
  * The value of a key for a device: from a status that names the device, else from the only one that has the key. A status
@@ -48,4 +48,10 @@ export function missingPublishers(publishers: Readonly<Record<string, number>>):
   return Object.entries(publishers)
     .filter(([, count]) => count === 0)
     .map(([topic]) => sentences[topic] ?? `Nothing comes on ${topic}.`);
+}
+
+/** The same for the devices: one that says nothing is as good as gone. */
+export function silentDevices(devices: readonly DeviceStatus[]): string[] {
+  const silent = devices.filter(({ alive }) => !alive).map(({ name }) => (name === "" ? "haptic_device" : name));
+  return silent.map((name) => `Nothing comes from ${name}: is its driver running?`);
 }

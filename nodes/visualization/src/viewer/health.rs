@@ -13,7 +13,7 @@ use crate::device_view::DeviceView;
 /// Nodes say how they are once a second; one that has said nothing for this long does not.
 const STALE_AFTER: Duration = Duration::from_millis(2500);
 /// A driver whose last pose is older than this is not alive, and a model that has not answered poses for so long is
-/// silent: a process that was killed stays in the graph for seconds.
+/// silent: a process that was killed stays in the graph for seconds, one that hangs for ever.
 const SILENT_AFTER: Duration = Duration::from_millis(500);
 /// More statuses than this are no session.
 const MAX_STATUSES: usize = 64;
@@ -55,6 +55,8 @@ struct Graph {
     poses: Vec<usize>,
     /// Publishers of what each device's motors apply.
     forces: Vec<usize>,
+    /// Full names of the nodes that publish what the model does.
+    model: BTreeSet<String>,
     nodes: BTreeSet<String>,
 }
 
@@ -110,7 +112,7 @@ impl Health {
         ];
         for (topic, publishers) in model {
             graph.counts.insert(topic, publishers.len());
-            graph.nodes.extend(publishers.into_iter().map(|publisher| publisher.node));
+            graph.model.extend(publishers.into_iter().map(|publisher| publisher.node));
         }
         for device in &self.devices {
             let contacts = kit.publishers_of(&topics::CONTACT_STATE, &device.name)?;
@@ -118,8 +120,10 @@ impl Health {
             graph.contacts.push(contacts.len());
             graph.poses.push(poses.len());
             graph.forces.push(kit.publishers_of(&topics::MEASURED_CF, &device.name)?.len());
-            graph.nodes.extend(contacts.into_iter().chain(poses).map(|publisher| publisher.node));
+            graph.model.extend(contacts.into_iter().map(|publisher| publisher.node));
+            graph.nodes.extend(poses.into_iter().map(|publisher| publisher.node));
         }
+        graph.nodes.extend(graph.model.iter().cloned());
         graph.nodes.insert(kit.full_name().to_owned());
         self.graph = graph;
         Ok(())
@@ -142,12 +146,16 @@ impl Health {
         self.statuses.values().map(fresh).collect()
     }
 
-    /// Number of publishers of each topic of the model. A model that leaves poses unanswered has none.
+    /// Number of publishers of each topic of the model. One that leaves poses unanswered has none; neither has one that is
+    /// asked nothing, and no longer says how it is.
     pub(crate) fn publishers(&self, now: Instant, views: &[DeviceView]) -> BTreeMap<&'static str, usize> {
-        let age = |heard: Option<Instant>| heard.map(|when| now.duration_since(when));
-        let speaks = |view: &DeviceView| {
-            let poses_come = age(view.pose_heard()).is_some_and(|age| age < SILENT_AFTER);
-            !poses_come || age(view.contact_heard()).is_none_or(|age| age < SILENT_AFTER)
+        let is_recent =
+            |heard: Option<Instant>| heard.is_some_and(|when| now.duration_since(when) < SILENT_AFTER);
+        let is_well = self.model_is_well(now);
+        let speaks = |view: &DeviceView| match is_recent(view.pose_heard()) {
+            // One that has not answered yet has just been found.
+            true => view.contact_heard().is_none() || is_recent(view.contact_heard()),
+            false => is_well,
         };
         let contacts = self.graph.contacts.iter().zip(views);
         let heard = contacts.filter(|(_, view)| speaks(view)).map(|(count, _)| count).sum();
@@ -158,6 +166,15 @@ impl Health {
         }
         counts.insert("contact_state", heard);
         counts
+    }
+
+    /// Whether a node that publishes what the model does says how it is. Of one that never did, such as a recording that is
+    /// played, only the graph is known.
+    fn model_is_well(&self, now: Instant) -> bool {
+        let is_of_model =
+            |name: &str| name.rsplit_once(": ").is_some_and(|(node, _)| self.graph.model.contains(node));
+        let mut said = self.statuses.values().filter(|(_, status)| is_of_model(&status.name)).peekable();
+        said.peek().is_none() || said.any(|(when, _)| now.duration_since(*when) <= STALE_AFTER)
     }
 
     /// State of each device; `pointers` and `unplaced` have one entry for each.
