@@ -15,6 +15,8 @@ export class FakeNode {
   publishers = { body_mesh: 1, surface_displacement: 1, contact_state: 1 };
   /** What the status says of the device, where it is not the usual. */
   device = {};
+  /** Messages that the node has not drawn. */
+  notDrawn = {};
   /** Whether a page that asks for the pointer gets it; how many gave it back. */
   grants = true;
   released = 0;
@@ -122,7 +124,7 @@ export class FakeNode {
     const device = { name: "", operating_state: "ENABLED", homed: true, busy: false, pointer: false, pose_age_s: 0.001, alive: true, ...this.device };
     const force = { name: "/haptic_device: force", level: "ok", summary: "poses are answered", values: { missed_deadlines: "0" } };
     const { publishers, pages } = this;
-    return { type: "status", nodes: [force], devices: [device], publishers, pages: pages.size, not_drawn: {} };
+    return { type: "status", nodes: [force], devices: [device], publishers, pages: pages.size, not_drawn: this.notDrawn };
   }
 
   mesh() {

@@ -55,6 +55,13 @@ test("NaN is not drawn, and counted", async (t) => {
   assert.deepEqual((await read(page, "moved")).map((one) => one.vertex), [1]);
 });
 
+test("what the node itself does not draw is counted on the page, too", async (t) => {
+  const { node, page } = await visit(t);
+  await page.locator("#counters", { hasText: /\b0 not drawn by the node/ }).waitFor({ state: "attached" });
+  node.notDrawn = { not_drawable: 3, other_mesh: 1 };
+  await page.locator("#counters", { hasText: /\b4 not drawn by the node/ }).waitFor({ state: "attached" });
+});
+
 test("the force of a device is what its motors apply; a command that they do not follow is said beside it", async (t) => {
   const { node, page } = await visit(t);
   await page.getByText("0.40", { exact: true }).first().waitFor();

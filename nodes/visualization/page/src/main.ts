@@ -185,13 +185,15 @@ function showCounters(app: App): void {
   const kilobytes = (bytes - last.bytes) / seconds / 1000;
   last = { applied, bytes, atS };
   const body = app.body ? `${app.body.vertexCount} vertices, ${app.body.movedCount} moved` : "no body";
+  const notDrawn = Object.values(app.status?.not_drawn ?? {}).reduce((sum, count) => sum + count, 0);
   const parts = [
     `${body}.`,
     `${rate.toFixed(0)} updates/s, ${kilobytes.toFixed(0)} kB/s;`,
     `${applied} applied of ${counts.surfaces},`,
     `${app.state?.dropped ?? 0} dropped by the node, ${counts.missing} missing,`,
     `${counts.garbage} garbage, ${counts.outOfOrder} out of order, ${app.otherMesh} of another mesh,`,
-    `${counts.notFinite + (app.body?.notFinite ?? 0)} not finite.`,
+    `${counts.notFinite + (app.body?.notFinite ?? 0)} not finite,`,
+    `${notDrawn} not drawn by the node.`,
   ];
   const trip = app.connection.counts.roundTripMs;
   if (Number.isFinite(trip)) parts.push(`Round trip ${trip.toFixed(1)} ms.`);
