@@ -118,12 +118,15 @@ def test_a_page_takes_the_pointer_moves_it_and_lets_go_by_silence(start):
     targets = session.heard(PoseStamped, "pointer_target", peer.reliable(10))
     grasps = session.heard(Bool, "grasp", peer.reliable(10))
     free = lambda: (page.last("status") or {"devices": [{}]})["devices"][0].get("pointer")
+    held = lambda: page.last("status")["devices"][0]["held"]
     session.wait_for(free, "the device listens")
+    assert not held()
     page.send(type="pointer_take", device="")
     session.wait_for(lambda: page.last("pointer")["granted"], "the pointer")
     numbers = iter(range(1, 1_000_000))
     session.wait_for(lambda: targets, "a target", lambda: page.send(**target(next(numbers))))
     now = time.time()
+    session.wait_for(held, "a page moves it", lambda: page.send(**target(next(numbers))))
     heard = targets[-1]
     assert heard.header.frame_id == f"{session.namespace}/body"
     assert abs(heard.header.stamp.sec + heard.header.stamp.nanosec * 1e-9 - now) < 1.0
@@ -150,6 +153,7 @@ def test_a_page_takes_the_pointer_moves_it_and_lets_go_by_silence(start):
     count = len(targets)
     session.spin(0.5)
     assert len(targets) == count, "and targets end"
+    session.wait_for(lambda: not held(), "what a silent page has may be taken")
 
     other.send(type="pointer_take", device="")
     session.wait_for(lambda: other.last("pointer")["granted"] and not page.last("pointer")["granted"], "a silent page loses it")

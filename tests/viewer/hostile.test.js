@@ -148,6 +148,43 @@ test("a cursor that the device does not reach is said where the hand is shown", 
   await page.mouse.up();
 });
 
+test("a cursor that rests over the body gives the device back, one that moves or presses keeps it", async (t) => {
+  const { node, page } = await visit(t);
+  node.device = { pointer: true };
+  node.say(node.status());
+  await until(page, () => window.rhombus.pointer.device !== null);
+  const { x, y } = await placeOnBody(page);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.waitForTimeout(5500);
+  assert.equal((await read(page, "pointer")).hold, "ours", "it presses");
+  await page.mouse.up();
+  for (let i = 0; i < 6; i += 1) {
+    await page.mouse.move(x + (i % 2), y);
+    await page.waitForTimeout(1000);
+  }
+  assert.equal((await read(page, "pointer")).hold, "ours", "it moves");
+  await page.waitForTimeout(5500);
+  assert.deepEqual([(await read(page, "pointer")).hold, node.released], ["free", 1]);
+});
+
+test("a page that was refused the device may ask again when the other one has let go, and says so", async (t) => {
+  const { node, page } = await visit(t);
+  [node.grants, node.device] = [false, { pointer: true, held: true }];
+  node.say(node.status());
+  await until(page, () => window.rhombus.pointer.device !== null);
+  const { x, y } = await placeOnBody(page);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.up();
+  await page.getByText("another page moves it").waitFor();
+  await page.waitForTimeout(1000);
+  assert.equal((await read(page, "pointer")).hold, "refused");
+  node.device = { pointer: true, held: false };
+  await page.getByText("drag on the body to press").waitFor();
+  assert.equal((await read(page, "pointer")).hold, "free");
+});
+
 test("a node that hangs is said to be silent within about a second, and nothing old looks like new", async (t) => {
   const { node, page } = await visit(t);
   await page.getByText("1000", { exact: true }).first().waitFor();

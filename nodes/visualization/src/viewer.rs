@@ -27,7 +27,7 @@ use health::Health;
 use link::{Counts, NodeEnd, Page, Request};
 use pace::Pace;
 use parameters::NodeParameters;
-use pointer::{Pointers, Target};
+use pointer::{PointerState, Pointers, Target};
 use protocol::{Asked, Hello};
 use server::Server;
 
@@ -288,8 +288,8 @@ impl Running {
     fn health(&mut self, kit: &mut NodeKit, now: Instant, inputs: &Inputs) -> anyhow::Result<String> {
         self.health_due = now + HEALTH_PERIOD;
         let views = inputs.views();
-        let pointers: Result<Vec<bool>, _> =
-            (0..views.len()).map(|device| self.pointers.is_free(kit, device)).collect();
+        let pointers: Result<Vec<PointerState>, _> =
+            (0..views.len()).map(|device| self.pointers.state(kit, now, device)).collect();
         let (pointers, pages) = (pointers?, self.link.counts.pages());
         let session = self.session(kit)?;
         let unplaced = views.iter().map(|view| session.feed.unplaced(view, now)).collect();

@@ -24,7 +24,7 @@ const LEAST_PERIOD_MS = 8;
 const TOUCH_M = 0.0003;
 const GRASP_AFTER_MS = 500;
 
-/** A pointer that nobody uses is given back after this time, for other pages, ms. */
+/** A pointer that nobody uses, or that rests over the body, is given back after this time, for other pages, ms. */
 const IDLE_MS = 5000;
 
 /** What the hand needs from the page. */
@@ -56,6 +56,8 @@ export class Hand {
   target: Vec3 | null = null;
   private motion: Motion = { kind: "away" };
   private sentMs = 0;
+  /** When the cursor last moved while nothing is pressed, or let go. */
+  private movedMs = 0;
 
   constructor(
     private readonly orbit: OrbitCamera,
@@ -120,6 +122,7 @@ export class Hand {
       return;
     }
     this.motion = { kind: "hover" };
+    this.movedMs = performance.now();
     if (this.due()) this.say(hoverTarget(hit, this.around.probeRadiusM()));
     else this.target = hoverTarget(hit, this.around.probeRadiusM());
   }
@@ -129,6 +132,7 @@ export class Hand {
     const { motion } = this;
     if (motion.kind !== "press" && motion.kind !== "pull") return;
     this.motion = { kind: "hover" };
+    this.movedMs = performance.now();
     this.say(hoverTarget(motion.hit, this.around.probeRadiusM()));
     this.around.changed();
   }
@@ -168,6 +172,8 @@ export class Hand {
   onStatus(devices: readonly DeviceStatus[]): void {
     const device = devices.find((one) => one.name === this.device);
     this.outOfReach = device?.out_of_reach ?? false;
+    // Whoever had it has let go: what was refused may be asked for again.
+    if (this.hold === "refused" && device?.pointer && !device.held) this.hold = "free";
     this.around.changed();
   }
 
@@ -217,6 +223,10 @@ export class Hand {
     const { motion } = this;
     if (motion.kind === "away" || !this.target) {
       if (this.hold === "ours" && performance.now() - this.sentMs > IDLE_MS) this.release();
+      return;
+    }
+    if (motion.kind === "hover" && performance.now() - this.movedMs > IDLE_MS) {
+      this.release();
       return;
     }
     if (motion.kind === "pull") {

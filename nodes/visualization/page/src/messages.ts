@@ -79,6 +79,8 @@ export interface DeviceStatus {
   readonly homed: boolean;
   readonly busy: boolean;
   readonly pointer: boolean;
+  /** A page moves it now. */
+  readonly held: boolean;
   /** What the cursor points at is outside its workspace. */
   readonly out_of_reach: boolean;
   readonly pose_age_s: number | null;
@@ -239,6 +241,7 @@ function device(json: Fields): DeviceStatus {
     homed: json.homed === true,
     busy: json.busy === true,
     pointer: json.pointer === true,
+    held: json.held === true,
     out_of_reach: json.out_of_reach === true,
     pose_age_s: limit(json.pose_age_s),
     alive: json.alive !== false,

@@ -7,6 +7,7 @@ use node_kit::{Inbox, NodeKit, StartError, topics};
 use r2r::crtk_msgs::msg::OperatingState;
 use r2r::diagnostic_msgs::msg::{DiagnosticArray, DiagnosticStatus};
 
+use super::pointer::PointerState;
 use super::protocol::{DeviceHealth, NodeHealth};
 use crate::device_view::DeviceView;
 
@@ -61,7 +62,7 @@ struct Graph {
 }
 
 /// A device with what was heard of it, publishers of its pose, whether it takes targets, and a frame without a place.
-type DeviceFacts<'a> = (((&'a Device, &'a DeviceView), usize), (bool, Option<String>));
+type DeviceFacts<'a> = (((&'a Device, &'a DeviceView), usize), (PointerState, Option<String>));
 
 impl Health {
     /// Subscribe.
@@ -182,7 +183,7 @@ impl Health {
         &self,
         now: Instant,
         views: &[DeviceView],
-        pointers: &[bool],
+        pointers: &[PointerState],
         unplaced: Vec<Option<String>>,
     ) -> Vec<DeviceHealth> {
         let poses = self.graph.poses.iter().copied().chain(std::iter::repeat(0));
@@ -195,7 +196,8 @@ impl Health {
                 operating_state: state.map(|state| state.state.clone()),
                 homed: state.is_some_and(|state| state.is_homed),
                 busy: state.is_some_and(|state| state.is_busy),
-                pointer,
+                pointer: pointer.takes_targets,
+                held: pointer.is_held,
                 out_of_reach: self.is_out_of_reach(now, device),
                 pose_age_s: age.map(|age| age.as_secs_f64()),
                 alive: publishers > 0 && age.is_some_and(|age| age < SILENT_AFTER),

@@ -29,6 +29,14 @@ pub(crate) struct Pointers {
     targets: u64,
 }
 
+/// What pages need to know before they ask for a device.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct PointerState {
+    pub(crate) takes_targets: bool,
+    /// By a page that goes on moving it.
+    pub(crate) is_held: bool,
+}
+
 /// One device: its name, and who moves it.
 struct Pointer {
     device: String,
@@ -41,6 +49,13 @@ struct Held {
     page: Page,
     hold: Hold,
     target: Publisher<PoseStamped>,
+}
+
+impl Held {
+    /// Whether another page may take it.
+    fn may_be_taken(&self, now: Instant) -> bool {
+        self.page.is_gone() || self.hold.is_silent(now)
+    }
 }
 
 /// What the page that holds a pointer has said so far.
@@ -95,13 +110,21 @@ impl Pointers {
         self.targets
     }
 
-    /// Whether a device takes targets: it listens, and nobody else sends it any.
-    pub(crate) fn is_free(&self, kit: &NodeKit, device: usize) -> Result<bool, r2r::Error> {
-        let Some(pointer) = self.devices.get(device) else { return Ok(false) };
-        match &pointer.held {
-            Some(held) => Ok(held.target.readers() > 0),
-            None => Ok(refusal(kit, &pointer.device)?.is_none()),
-        }
+    /// Whether a device takes the targets of a page, and whether one moves it.
+    pub(crate) fn state(
+        &self,
+        kit: &NodeKit,
+        now: Instant,
+        device: usize,
+    ) -> Result<PointerState, r2r::Error> {
+        let Some(pointer) = self.devices.get(device) else { return Ok(PointerState::default()) };
+        Ok(match &pointer.held {
+            Some(held) => {
+                PointerState { takes_targets: held.target.readers() > 0, is_held: !held.may_be_taken(now) }
+            }
+            // It listens, and nobody else sends it any.
+            None => PointerState { takes_targets: refusal(kit, &pointer.device)?.is_none(), is_held: false },
+        })
     }
 
     /// A page asks for a pointer; it is told whether it gets it.
@@ -118,7 +141,7 @@ impl Pointers {
         };
         match &pointer.held {
             Some(held) if held.page == page => {}
-            Some(held) if !held.page.is_gone() && !held.hold.is_silent(now) => {
+            Some(held) if !held.may_be_taken(now) => {
                 page.tell(protocol::pointer(device, Err("another page moves it")));
                 return Ok(());
             }

@@ -46,6 +46,8 @@ pub(crate) struct DeviceHealth {
     pub(crate) busy: bool,
     /// It takes the targets of a page.
     pub(crate) pointer: bool,
+    /// A page moves it now.
+    pub(crate) held: bool,
     /// The newest target is outside its workspace and is not followed, as its driver says.
     pub(crate) out_of_reach: bool,
     pub(crate) pose_age_s: Option<f64>,
