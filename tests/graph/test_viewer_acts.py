@@ -38,6 +38,7 @@ def test_a_parameter_is_set_on_every_node_that_has_it_or_on_none(start, tmp_path
         assert described["exclusive_min"] and described["min"] == 0.0 and "> 0" in described["accepted"]
         assert not any(name.startswith(("safety.", "device.", "unsafe.")) for name in shown())
         assert "body.mesh" not in shown(), "not live"
+        assert "visualization.full_scale" in shown() and "visualization.show_chains" not in shown(), "a page draws its own chains"
 
         def value_of(node):
             answer = session.call(GetParameters, f"{node}/get_parameters", GetParameters.Request(names=[stiffness]))

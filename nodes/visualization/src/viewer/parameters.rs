@@ -13,6 +13,8 @@ use super::protocol::{self, ShownParameter};
 
 /// Groups that are not for a page: what protects a hand, what drives a motor, what switches protection off.
 const NOT_FOR_PAGES: [&str; 3] = ["safety.", "device.", "unsafe."];
+/// Only the markers follow it; a page has a switch of its own for the same thing.
+const OF_MARKERS: &str = "visualization.show_chains";
 /// Nodes whose parameters are read; a client of r2r is never given back.
 const MAX_NODES: usize = 32;
 /// Changes of all pages that may wait.
@@ -282,6 +284,7 @@ fn is_for_pages(parameter: &RemoteParameter) -> bool {
     !parameter.read_only
         && parameter.name.contains('.')
         && !parameter.name.starts_with("qos_overrides.")
+        && parameter.name != OF_MARKERS
         && !NOT_FOR_PAGES.iter().any(|group| parameter.name.starts_with(group))
 }
 
