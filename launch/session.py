@@ -29,7 +29,7 @@ READY_TIMEOUT_S = 20.0
 STOP_TIMEOUT_S = 10.0
 # A session without a real device ends by itself.
 SIMULATED_DURATION_S = 15.0
-VIEWER_LINE = re.compile(r"\bviewer: (https?://\S+)$", re.MULTILINE)
+VIEWER_LINE = re.compile(r"\bviewer: (https?://\S+|from other machines .*)$", re.MULTILINE)
 ERROR_LINE = re.compile(r"^\[(?:ERROR|FATAL)\](?: \[[^\]]*\])*: (.*)$", re.MULTILINE)
 
 
@@ -53,9 +53,8 @@ class NodeProcess:
         return "ready:" in self.text()
 
     def viewer(self):
-        """Address of the page that the node serves; none when it serves none."""
-        found = VIEWER_LINE.search(self.text())
-        return found and found[1]
+        """Where the page is that the node serves, one line for each way to it; none when it serves none."""
+        return VIEWER_LINE.findall(self.text())
 
     def has_ended(self):
         return self.process.poll() is not None
@@ -180,13 +179,13 @@ class Session:
 
     def tell_viewer(self):
         """Say where to look, and where to press with the mouse."""
-        address = next((address for node in self.others if (address := node.viewer())), None)
-        if address:
+        addresses = [address for node in self.others for address in node.viewer()]
+        for address in addresses:
             print(f"viewer: {address}", flush=True)
         if self.plan.has_pointer:
             print(
                 "drag presses the organ, Shift-drag holds and pulls it, Ctrl-C ends the session"
-                if address
+                if addresses
                 else "no page is served (viewer.enabled, or a build without the viewer): publish pointer_target to lead the hand",
                 flush=True,
             )

@@ -204,7 +204,24 @@ def test_a_taken_port_is_an_error_that_names_a_free_one(start, tmp_path):
         listener.bind(("127.0.0.1", free))
     unknown = peer.Program(tmp_path, "visualization", {"viewer.address": "no.such.host.invalid"}, "third")
     assert unknown.process.wait(20) != 0 and "viewer.address" in unknown.log()
+    elsewhere = peer.Program(tmp_path, "visualization", {"viewer.address": "192.0.2.1"}, "fifth")
+    assert elsewhere.process.wait(20) != 0 and elsewhere.log().count("os error 99") == 1, "the reason is said once"
     without = peer.Program(tmp_path, "visualization", {"viewer.enabled": False, "viewer.port": session.port}, "fourth")
     without.wait_ready()
     assert "viewer:" not in without.log()
     without.kill()
+
+
+def test_served_at_every_address_it_says_one_that_a_browser_can_open(tmp_path):
+    program = peer.Program(tmp_path, "visualization", {"viewer.address": "0.0.0.0", "viewer.port": 0}, "everywhere")
+    program.wait_ready()
+    try:
+        assert "http://0.0.0.0" not in program.log()
+        port = int(re.search(r"viewer: http://127\.0\.0\.1:(\d+)/$", program.log(), re.MULTILINE)[1])
+        assert request(port)[0] == 200
+        told = re.search(r"viewer: from other machines (?:http://([0-9.]+):(\d+)/|at an IP address of this machine)", program.log())
+        assert told, program.log()
+        if told[1] is not None:
+            assert int(told[2]) == port and request(port, headers={"Host": f"{told[1]}:{port}"})[0] == 200
+    finally:
+        program.kill()

@@ -89,6 +89,9 @@ impl Viewer {
         });
         let server = Server::start(&settings.address, settings.port, settings.max_pages, there)?;
         kit.announce(&format!("viewer: {}", server.url()));
+        if let Some(place) = server.for_other_machines() {
+            kit.announce(&format!("viewer: {place}"));
+        }
         let now = Instant::now();
         let running = Running {
             server,

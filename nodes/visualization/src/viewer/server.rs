@@ -1,7 +1,7 @@
 //! The server: one thread, HTTP/1.1, the page's files and its WebSocket. Bounded in every direction.
 
 use std::io;
-use std::net::{SocketAddr, ToSocketAddrs};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, ToSocketAddrs, UdpSocket};
 use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -50,20 +50,20 @@ const HEADERS: [(&str, &str); 3] = [
     ("cross-origin-resource-policy", "same-origin"),
 ];
 
-/// Why no page is served.
+/// Why no page is served. The system's reason stands in the sentence, and is no `source` that would repeat it.
 #[derive(Debug, Error)]
 pub(crate) enum ServerError {
     #[error(
-        "viewer.address: {address:?} is no address of this machine: {source}; accepted: one that it has, or its name"
+        "viewer.address: {address:?} is no address of this machine: {cause}; accepted: one that it has, or its name"
     )]
-    Address { address: String, source: io::Error },
+    Address { address: String, cause: io::Error },
     #[error(
         "viewer.port: {port} at {address} is taken by another program; {free} is free; 0 takes any that is, and \
          viewer.enabled: false serves no page"
     )]
     Taken { address: String, port: u16, free: String },
-    #[error("the viewer cannot serve {address}: {source}")]
-    Listen { address: SocketAddr, source: io::Error },
+    #[error("the viewer cannot serve {address}: {cause}")]
+    Listen { address: SocketAddr, cause: io::Error },
     #[error("the viewer's thread cannot start: {0}")]
     Thread(io::Error),
 }
@@ -107,10 +107,45 @@ impl Server {
         Ok(Server { address, stop: Some(stop), thread: Some(thread) })
     }
 
-    /// Where a browser finds the page.
+    /// Where a browser on this machine finds the page.
     pub(crate) fn url(&self) -> String {
-        format!("http://{}/", self.address)
+        url(here(self.address))
     }
+
+    /// Where browsers on other machines find it, in words; none at one address, which says it itself.
+    pub(crate) fn for_other_machines(&self) -> Option<String> {
+        self.address.ip().is_unspecified().then(|| match address_to_others(self.address) {
+            Some(ip) => format!("from other machines {}", url(SocketAddr::new(ip, self.address.port()))),
+            None => {
+                format!("from other machines at an IP address of this machine, port {}", self.address.port())
+            }
+        })
+    }
+}
+
+fn url(address: SocketAddr) -> String {
+    format!("http://{address}/")
+}
+
+/// Every address of the machine is none that a browser could open; its own is one of them.
+fn here(address: SocketAddr) -> SocketAddr {
+    let loopback: IpAddr =
+        if address.is_ipv4() { Ipv4Addr::LOCALHOST.into() } else { Ipv6Addr::LOCALHOST.into() };
+    if address.ip().is_unspecified() { SocketAddr::new(loopback, address.port()) } else { address }
+}
+
+/// The address with which this machine speaks to other networks; none where it has no way to one.
+fn address_to_others(address: SocketAddr) -> Option<IpAddr> {
+    // Addresses of documentation: nothing is sent, the kernel only looks up the way.
+    let far: IpAddr = if address.is_ipv4() {
+        Ipv4Addr::new(192, 0, 2, 1).into()
+    } else {
+        Ipv6Addr::new(0x2001, 0xdb8, 0, 0, 0, 0, 0, 1).into()
+    };
+    let socket = UdpSocket::bind((address.ip(), 0)).ok()?;
+    socket.connect((far, 9)).ok()?;
+    let ip = socket.local_addr().ok()?.ip();
+    (!ip.is_unspecified() && !ip.is_loopback()).then_some(ip)
 }
 
 impl Drop for Server {
@@ -124,7 +159,7 @@ impl Drop for Server {
 }
 
 fn listen(name: &str, port: u16) -> Result<TcpListener, ServerError> {
-    let no_address = |source| ServerError::Address { address: name.to_owned(), source };
+    let no_address = |cause| ServerError::Address { address: name.to_owned(), cause };
     let mut addresses = (name, port).to_socket_addrs().map_err(no_address)?;
     let address = addresses.next().ok_or_else(|| no_address(io::ErrorKind::AddrNotAvailable.into()))?;
     match bind(address) {
@@ -138,7 +173,7 @@ fn listen(name: &str, port: u16) -> Result<TcpListener, ServerError> {
             Err(ServerError::Taken { address: name.to_owned(), port, free })
         }
         Err(error) if error.kind() == io::ErrorKind::AddrNotAvailable => Err(no_address(error)),
-        Err(source) => Err(ServerError::Listen { address, source }),
+        Err(cause) => Err(ServerError::Listen { address, cause }),
     }
 }
 
@@ -245,4 +280,20 @@ async fn open(State(hall): State<page::Hall>, upgrade: WebSocketUpgrade) -> Resp
         .max_message_size(MAX_FRAME)
         .max_frame_size(MAX_FRAME)
         .on_upgrade(move |socket| async move { hall.receive(socket).await })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn served_everywhere_a_browser_is_sent_to_this_machine_and_served_at_an_address_to_that() {
+        for (address, browser) in [
+            ("0.0.0.0:8080", "http://127.0.0.1:8080/"),
+            ("[::]:8080", "http://[::1]:8080/"),
+            ("192.168.1.5:80", "http://192.168.1.5:80/"),
+        ] {
+            assert_eq!(url(here(address.parse().unwrap())), browser);
+        }
+    }
 }
