@@ -2,6 +2,7 @@
 //
 // RHOMBUS_VIEWER_URL        the page's address; needed, except where a test brings its own node
 // RHOMBUS_CHROMIUM          the browser; /usr/bin/chromium if not said
+// RHOMBUS_VIEWER_PATIENCE_MS  how long anything may take before it counts as missing; 120000 if not said
 // RHOMBUS_VIEWER_ARTEFACTS  folder for pictures; artefacts/ beside this file if not said
 
 import assert from "node:assert/strict";
@@ -21,14 +22,18 @@ const ARGUMENTS = [
 ];
 
 /** Time that a busy machine may need for a first picture, ms. */
-const PATIENCE_MS = 120_000;
+const PATIENCE_MS = Number(process.env.RHOMBUS_VIEWER_PATIENCE_MS ?? 120_000);
 
 export async function launch() {
   return chromium.launch({ executablePath, args: ARGUMENTS });
 }
 
-/** Opens the page, runs `script` in it before its own, and waits for its first picture. `close` fails when the page wrote an error to its console. */
-export async function open(browser, { address = url, width = 1280, height = 720, theme = "light", touch = false, script = null } = {}) {
+/**
+ * Opens the page, runs `script` in it before its own, and waits for its first picture, or only for its script when it is not to be
+ * `drawn`. `close` fails when the page wrote an error to its console.
+ */
+export async function open(browser, options = {}) {
+  const { address = url, width = 1280, height = 720, theme = "light", touch = false, script = null, drawn = true } = options;
   assert.ok(address, "RHOMBUS_VIEWER_URL is not set: the address of the page to look at, such as http://127.0.0.1:8080/");
   const context = await browser.newContext({
     viewport: { width, height },
@@ -49,7 +54,7 @@ export async function open(browser, { address = url, width = 1280, height = 720,
     if (new URL(request.url()).host !== new URL(address).host && !request.url().startsWith("blob:")) foreign.push(request.url());
   });
   await page.goto(address);
-  await page.waitForFunction(() => window.rhombus?.first_picture_ms !== null);
+  await page.waitForFunction((one) => window.rhombus && (!one || window.rhombus.first_picture_ms !== null), drawn);
   const close = async () => {
     await context.close();
     assert.deepEqual(errors, [], "errors in the page's console");

@@ -24,10 +24,18 @@ export class FakeNode {
   /** Numbers of the frames of each kind. */
   sequence = [0, 0, 0, 0];
   topologyVersion = 1;
+  /** What pages asked of the pointer: every message of it. */
+  pointed = [];
+  /** Connections so far, refused ones too. */
+  connections = 0;
   #timers = [];
 
-  /** A sphere with about this many vertices. */
-  constructor({ vertices = 3116 } = {}) {
+  /**
+   * A sphere with about this many vertices. `pointer`: its device follows the mouse; `full`: no page is let in; `bodiless`:
+   * no mesh comes.
+   */
+  constructor({ vertices = 3116, pointer = false, full = false, bodiless = false } = {}) {
+    Object.assign(this, { pointer, full, bodiless });
     this.setBody(vertices);
     this.http = createServer((request, response) => serve(request, response));
     this.sockets = new WebSocketServer({ server: this.http, path: "/ws", perMessageDeflate: false });
@@ -88,28 +96,38 @@ export class FakeNode {
     for (const page of this.pages) page.send(buffer);
   }
 
+  /** A copy of a surface or a state as of now. */
   #numbered(buffer) {
     const copy = buffer.slice(0);
     const view = new DataView(copy);
     const kind = view.getUint8(0);
     view.setUint32(4, (this.sequence[kind] += 1), true);
+    view.setFloat64(kind === 3 ? 8 : 16, Date.now() / 1000, true);
     return copy;
   }
 
   #greet(socket) {
+    this.connections += 1;
+    if (this.full) {
+      const reason = "1 pages are open, and more are not served (viewer.max_pages)";
+      socket.send(JSON.stringify({ type: "refused", reason }));
+      socket.close(1013, reason);
+      return;
+    }
     this.pages.add(socket);
     socket.on("close", () => this.pages.delete(socket));
     socket.on("message", (data) => {
       const message = JSON.parse(data);
       const answer = (text) => socket.send(JSON.stringify(text));
       if (message.type === "ping") answer({ type: "pong", t: message.t });
+      if (message.type.startsWith("pointer_")) this.pointed.push(message);
       if (message.type === "pointer_take") answer({ type: "pointer", device: "", granted: this.grants, reason: this.grants ? "" : "another page moves it" });
       if (message.type === "pointer_release") this.released += 1;
     });
     for (const message of [this.hello(), CHAINS, { type: "parameters", parameters: PARAMETERS }, this.status()]) {
       socket.send(JSON.stringify(message));
     }
-    socket.send(this.mesh());
+    if (!this.bodiless) socket.send(this.mesh());
     socket.send(this.state());
   }
 
@@ -121,8 +139,8 @@ export class FakeNode {
   }
 
   status() {
-    const device = { name: "", operating_state: "ENABLED", homed: true, busy: false, pointer: false, pose_age_s: 0.001, alive: true, ...this.device };
-    const force = { name: "/haptic_device: force", level: "ok", summary: "poses are answered", values: { missed_deadlines: "0" } };
+    const device = { name: "", operating_state: "ENABLED", homed: true, busy: false, pointer: this.pointer, pose_age_s: 0.001, alive: true, ...this.device };
+    const force = { name: "/haptic_device: force", level: "ok", summary: "poses are answered", stamp_s: Math.floor(Date.now() / 1000), values: { missed_deadlines: "0" } };
     const { publishers, pages } = this;
     return { type: "status", nodes: [force], devices: [device], publishers, pages: pages.size, not_drawn: this.notDrawn };
   }
@@ -160,10 +178,10 @@ export class FakeNode {
   }
 
   /** `applied`: force that the motors give, N; what the model commands if not said. */
-  state(i = 0, { probe, applied } = {}) {
+  state(i = 0, { probe, applied, serverTimeS = Date.now() / 1000 } = {}) {
     const depth = depthOf(i);
     const { buffer, view } = this.#frame(3, 16 + 128);
-    view.setFloat64(8, Date.now() / 1000, true);
+    view.setFloat64(8, serverTimeS, true);
     view.setUint32(20, 1, true);
     view.setUint8(24, 1);
     view.setUint8(25, 7 | 32 | 64);

@@ -86,6 +86,10 @@ def test_the_page_stands_a_node_that_sends_nonsense_hangs_and_dies(tmp_path):
     Browser(tmp_path, "hostile.test.js").assert_passes()
 
 
+def test_the_page_says_that_there_is_no_room_for_it_and_asks_rarely(tmp_path):
+    Browser(tmp_path, "refused.test.js").assert_passes()
+
+
 def test_the_mouse_presses_the_organ_and_the_page_shows_what_the_model_says(session, tmp_path):
     address, parameters = session
     remote = peer.Peer()

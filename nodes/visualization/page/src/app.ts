@@ -154,7 +154,8 @@ export class App {
         break;
       case "refused":
         this.refusals += 1;
-        this.notices.set("refused", `Refused: ${message.reason}`, REFUSAL_MS);
+        // A page that is not taken is told so by its close.
+        if (this.connection.isGreeted) this.notices.set("refused", `Refused: ${message.reason}`, REFUSAL_MS);
         break;
       case "pong":
         this.connection.onPong(message.t);
@@ -165,6 +166,7 @@ export class App {
   private onHello(hello: Hello): void {
     const known = this.hello;
     this.hello = hello;
+    this.connection.onHello();
     if (known?.devices.join() !== hello.devices.join()) this.recorder.setDevices(hello.devices);
     // Of another start of the node: what was true then need not be.
     if (known?.boot_id !== hello.boot_id) this.state = null;

@@ -4,6 +4,9 @@ import { type Aim, Link } from "./link.ts";
 
 /** Pauses between attempts, ms. */
 const PAUSES_MS = [250, 500, 1000, 2000, 4000, 5000];
+/** A node with no room for another page is asked again after these, ms; it says so with this code. */
+const FULL_PAUSES_MS = [5000, 10_000, 20_000, 30_000];
+const FULL_CODE = 1013;
 /** A server sends states at 4 Hz or more; silence for this long means that nobody is there, ms. */
 const SILENCE_MS = 700;
 const WATCH_MS = 100;
@@ -17,7 +20,8 @@ export type ConnectionState =
   | { readonly phase: "connected" }
   /** Connected, but nothing arrives. */
   | { readonly phase: "silent" }
-  | { readonly phase: "waiting"; readonly attempt: number; readonly reason: string; readonly untilMs: number };
+  /** `full`: the node has no room for another page. */
+  | { readonly phase: "waiting"; readonly attempt: number; readonly reason: string; readonly full: boolean; readonly untilMs: number };
 
 export interface ConnectionListener {
   onState(state: ConnectionState): void;
@@ -40,6 +44,8 @@ export class Connection {
   private watchedMs = 0;
   private startedMs = 0;
   private opened = false;
+  /** The node has said hello: it takes the page. */
+  private greeted = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private current: ConnectionState = { phase: "connecting", attempt: 1 };
 
@@ -53,8 +59,8 @@ export class Connection {
         this.heardMs = performance.now();
         this.listener.onOpen();
       },
-      closed: (reason) => {
-        if (this.current.phase !== "waiting") this.lost(reason || "the node does not answer");
+      closed: (code, reason) => {
+        if (this.current.phase !== "waiting") this.lost(reason || "the node does not answer", code === FULL_CODE);
       },
       text: (text) => {
         this.heard();
@@ -92,6 +98,18 @@ export class Connection {
     if (this.opened) this.link.aim(aim);
   }
 
+  /** The node takes the page. */
+  onHello(): void {
+    this.greeted = true;
+    this.failures = 0;
+    this.heard();
+  }
+
+  /** Whether the node has taken the page. */
+  get isGreeted(): boolean {
+    return this.greeted;
+  }
+
   onPong(sentMs: number): void {
     this.counts.roundTripMs = performance.now() - sentMs;
   }
@@ -103,6 +121,7 @@ export class Connection {
   private connect(): void {
     clearTimeout(this.timer);
     this.opened = false;
+    this.greeted = false;
     this.startedMs = performance.now();
     this.become({ phase: "connecting", attempt: this.failures + 1 });
     this.link.open(this.url);
@@ -110,16 +129,17 @@ export class Connection {
 
   private heard(): void {
     this.heardMs = performance.now();
-    this.failures = 0;
-    if (this.current.phase !== "connected") this.become({ phase: "connected" });
+    if (this.greeted && this.current.phase !== "connected") this.become({ phase: "connected" });
   }
 
-  private lost(reason: string): void {
-    if (this.opened) this.counts.reconnects += 1;
+  private lost(reason: string, full: boolean): void {
+    if (this.greeted) this.counts.reconnects += 1;
     this.opened = false;
-    const pauseMs = PAUSES_MS[Math.min(this.failures, PAUSES_MS.length - 1)];
+    this.greeted = false;
+    const pauses = full ? FULL_PAUSES_MS : PAUSES_MS;
+    const pauseMs = pauses[Math.min(this.failures, pauses.length - 1)];
     this.failures += 1;
-    this.become({ phase: "waiting", attempt: this.failures, reason, untilMs: performance.now() + pauseMs });
+    this.become({ phase: "waiting", attempt: this.failures, reason, full, untilMs: performance.now() + pauseMs });
     this.timer = setTimeout(() => this.connect(), pauseMs);
   }
 
@@ -132,7 +152,7 @@ export class Connection {
     if (phase === "connected" && silentMs > SILENCE_MS && !heardSince) this.become({ phase: "silent" });
     const limitMs = phase === "connecting" ? CONNECT_TIMEOUT_MS : DEAD_MS;
     if ((phase === "connecting" || phase === "silent") && silentMs > limitMs) {
-      this.lost("nothing was heard from the node");
+      this.lost("nothing was heard from the node", false);
       this.link.close();
     }
   }

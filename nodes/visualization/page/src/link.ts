@@ -20,16 +20,20 @@ export type ToLink =
 
 export type FromLink =
   | { readonly type: "opened"; readonly id: number }
-  | { readonly type: "closed"; readonly id: number; readonly reason: string }
+  | { readonly type: "closed"; readonly id: number; readonly code: number; readonly reason: string }
   | { readonly type: "text"; readonly id: number; readonly text: string }
   | { readonly type: "binary"; readonly buffer: ArrayBuffer };
 
 export interface LinkListener {
   opened(): void;
-  closed(reason: string): void;
+  /** `code`: of the WebSocket's close. */
+  closed(code: number, reason: string): void;
   text(text: string): void;
   binary(buffer: ArrayBuffer): void;
 }
+
+/** What a browser calls a connection that ended without a farewell. */
+const ABNORMAL = 1006;
 
 export class Link {
   private readonly worker = new Worker(new URL("link.js", document.baseURI), { type: "module", name: "link" });
@@ -37,7 +41,7 @@ export class Link {
 
   constructor(private readonly listener: LinkListener) {
     this.worker.onmessage = ({ data }: MessageEvent<FromLink>) => this.onMessage(data);
-    this.worker.onerror = () => this.listener.closed("the page's own script link.js cannot be run");
+    this.worker.onerror = () => this.listener.closed(ABNORMAL, "the page's own script link.js cannot be run");
   }
 
   /** A new socket in place of the one before. */
@@ -66,7 +70,7 @@ export class Link {
     } else if (message.id === this.id) {
       // What an older socket still says does not count.
       if (message.type === "opened") this.listener.opened();
-      else if (message.type === "closed") this.listener.closed(message.reason);
+      else if (message.type === "closed") this.listener.closed(message.code, message.reason);
       else this.listener.text(message.text);
     }
   }

@@ -80,7 +80,7 @@ function open(url: string, id: number): void {
   opened.binaryType = "arraybuffer";
   socket = opened;
   opened.onopen = () => post({ type: "opened", id });
-  opened.onclose = (event) => post({ type: "closed", id, reason: event.reason });
+  opened.onclose = (event) => post({ type: "closed", id, code: event.code, reason: event.reason });
   opened.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
     if (socket !== opened) return;
     if (typeof event.data === "string") post({ type: "text", id, text: event.data });

@@ -166,13 +166,14 @@ function showConnection(state: ConnectionState): void {
     connecting: "Connecting",
     connected: "Connected",
     silent: "Connected, but the node is silent",
-    waiting: "Connection lost, trying again",
+    waiting: state.phase === "waiting" && state.full ? `No room: ${state.reason}` : "Connection lost, trying again",
   };
-  pill.dataset.phase = state.phase;
-  // Attempts are not read aloud one by one.
+  // Attempts are not read aloud one by one, and what a refused page reads does not flicker.
   if (state.phase === "connecting" && state.attempt > 1) return;
+  pill.dataset.phase = state.phase;
   write(pill, texts[state.phase]);
   pill.title = state.phase === "waiting" ? state.reason : "";
+  write(find("waiting").children[0], state.phase === "waiting" && state.full ? `No room for this page: ${state.reason}. It tries again now and then.` : "Waiting for the body");
 }
 
 let last = { applied: 0, bytes: 0, atS: 0 };
