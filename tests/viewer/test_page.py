@@ -90,6 +90,10 @@ def test_the_page_says_that_there_is_no_room_for_it_and_asks_rarely(tmp_path):
     Browser(tmp_path, "refused.test.js").assert_passes()
 
 
+def test_the_last_minute_is_whole_and_looking_back_moves_nothing(tmp_path):
+    Browser(tmp_path, "looking_back.test.js").assert_passes()
+
+
 def test_the_mouse_presses_the_organ_and_the_page_shows_what_the_model_says(session, tmp_path):
     address, parameters = session
     remote = peer.Peer()

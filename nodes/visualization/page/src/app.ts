@@ -4,13 +4,13 @@ import { Body } from "./body.ts";
 import { ContactLaw } from "./chain.ts";
 import { Connection, type ConnectionState } from "./connection.ts";
 import { missingPublishers, silentDevices } from "./diagnostics.ts";
-import type { StateFrame, SurfaceFrame } from "./frames.ts";
+import type { MeshFrame, StateFrame, SurfaceFrame } from "./frames.ts";
 import { Hand } from "./hand.ts";
 import { Inbox } from "./inbox.ts";
 import { parse, type Chains, type Hello, type Message, type Parameter, type ParameterValue, type Status } from "./messages.ts";
 import type { Notices } from "./notices.ts";
 import { RayTree } from "./raycast.ts";
-import { Recorder } from "./recorder.ts";
+import { Recorder, type Minute } from "./recorder.ts";
 import type { Look, Stage } from "./stage.ts";
 
 /** The parts of the page that show what the app knows. */
@@ -25,11 +25,15 @@ export interface Views {
   lost(): void;
   body(body: Body): void;
   hand(): void;
-  recorded(timeS: number): void;
+  recorded(minute: Minute): void;
+  /** Leave the past. */
+  live(): void;
 }
 
 /** A refusal stays on the page for this long, ms. */
 const REFUSAL_MS = 6000;
+/** So does that the page went to live by itself, ms. */
+const TO_LIVE_MS = 6000;
 
 /** Time of the page, s. */
 export const nowS = (): number => performance.now() / 1000;
@@ -69,6 +73,12 @@ export class App {
       probeRadiusM: () => this.number("probe.radius") ?? this.hello?.probe_radius_m ?? 0.005,
       device: (name) => this.state?.devices[this.hello?.devices.indexOf(name) ?? -1] ?? null,
       changed: () => this.views.hand(),
+      isPast: () => this.lookingBackS > 0,
+      toLive: () => {
+        if (this.lookingBackS === 0) return;
+        this.views.live();
+        this.notices.set("live", "Back to live: a press is felt now.", TO_LIVE_MS);
+      },
     });
     stage.onPicture = () => {
       if (this.body) this.firstPictureMs ??= performance.now();
@@ -93,29 +103,41 @@ export class App {
     const { recorder } = this;
     this.lookingBackS = agoS;
     if (agoS === 0) {
-      recorder.pausedS = null;
-      if (this.newest) this.showSurface(this.newest);
-      if (this.state) this.stage.setDevices(this.state.devices);
+      recorder.letGo();
+      this.showLive();
     } else {
-      recorder.pausedS ??= nowS();
-      const timeS = recorder.pausedS - agoS;
-      const surface = recorder.history.surfaceAt(timeS);
+      // Nobody leads a device by a picture of the past.
+      this.hand.rest();
+      recorder.hold();
+      const { endS, history } = recorder.minute;
+      const surface = history.surfaceAt(endS - agoS);
       if (surface) this.body?.apply(surface);
       else this.body?.toRest();
-      const state = recorder.history.stateAt(timeS);
+      const state = history.stateAt(endS - agoS);
       this.stage.setDevices(state?.devices ?? []);
       if (state) this.views.state(state);
     }
+    this.views.hand();
     this.stage.invalidate();
+  }
+
+  private showLive(): void {
+    if (this.newest) this.showSurface(this.newest);
+    else this.body?.toRest();
+    const { phase } = this.connection.state;
+    if (phase === "connected" && this.state) this.showState(this.state);
+    else this.showNoDevices();
+  }
+
+  /** What is old must not look like what is. */
+  private showNoDevices(): void {
+    this.stage.setDevices([]);
+    this.views.state({ devices: [] });
   }
 
   private onConnection(state: ConnectionState): void {
     this.views.connection(state);
-    // What is old must not look like what is.
-    if (state.phase === "waiting" || state.phase === "silent") {
-      this.stage.setDevices([]);
-      this.views.state({ devices: [] });
-    }
+    if ((state.phase === "waiting" || state.phase === "silent") && this.lookingBackS === 0) this.showNoDevices();
     if (state.phase === "waiting") {
       this.hand.onLost();
       this.views.lost();
@@ -167,7 +189,10 @@ export class App {
     const known = this.hello;
     this.hello = hello;
     this.connection.onHello();
-    if (known?.devices.join() !== hello.devices.join()) this.recorder.setDevices(hello.devices);
+    if (known?.devices.join() !== hello.devices.join()) {
+      this.recorder.setDevices(hello.devices);
+      this.leavePast();
+    }
     // Of another start of the node: what was true then need not be.
     if (known?.boot_id !== hello.boot_id) this.state = null;
     this.applyLook();
@@ -190,12 +215,7 @@ export class App {
     const frame = this.inbox.receive(buffer);
     switch (frame?.kind) {
       case "mesh":
-        this.body = new Body(frame);
-        this.tree = null;
-        this.newest = null;
-        this.recorder.history.clear();
-        this.stage.setBody(this.body);
-        this.views.body(this.body);
+        this.onMesh(frame);
         break;
       case "surface":
         this.onSurface(frame);
@@ -204,6 +224,25 @@ export class App {
         this.onState(frame);
         break;
     }
+  }
+
+  private onMesh(frame: MeshFrame): void {
+    this.newest = null;
+    // The same body again, after a loss: what is known of it still holds.
+    if (this.body?.isOf(frame)) {
+      if (this.lookingBackS === 0) this.showLive();
+      return;
+    }
+    this.body = new Body(frame);
+    this.tree = null;
+    this.recorder.forgetFrames();
+    this.leavePast();
+    this.stage.setBody(this.body);
+    this.views.body(this.body);
+  }
+
+  private leavePast(): void {
+    if (this.lookingBackS > 0) this.views.live();
   }
 
   private onSurface(frame: SurfaceFrame): void {
@@ -225,12 +264,15 @@ export class App {
 
   private onState(frame: StateFrame): void {
     this.state = frame;
-    const timeS = nowS();
-    this.recorder.addState(timeS, frame, this.status);
+    this.recorder.addState(nowS(), frame, this.status);
     if (this.lookingBackS > 0) return;
+    this.showState(frame);
+    this.views.recorded(this.recorder.minute);
+  }
+
+  private showState(frame: StateFrame): void {
     this.stage.setDevices(frame.devices);
     this.views.state(frame);
-    this.views.recorded(timeS);
   }
 
   /** Where the look is also a parameter of the node, the parameter's value counts: it may have been changed since hello. */

@@ -78,6 +78,21 @@ export class Body {
     this.restNormals = this.normals.slice();
   }
 
+  /** Whether a mesh is this body's. */
+  isOf(mesh: MeshFrame): boolean {
+    const same = (one: ArrayLike<number> | null, other: ArrayLike<number> | null): boolean => {
+      if (!one || !other || one.length !== other.length) return one === other;
+      for (let i = 0; i < one.length; i += 1) if (one[i] !== other[i]) return false;
+      return true;
+    };
+    return (
+      mesh.topologyVersion === this.topologyVersion &&
+      same(mesh.positions, this.rest) &&
+      same(mesh.corners, this.corners) &&
+      same(mesh.stiffness, this.stiffness)
+    );
+  }
+
   /** The surface is where the update says, and everything else is at rest. */
   apply(update: SurfaceFrame): Applied {
     if (update.topologyVersion !== this.topologyVersion) return "other mesh";

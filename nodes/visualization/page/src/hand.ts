@@ -36,6 +36,10 @@ export interface Surroundings {
   probeRadiusM(): number;
   device(name: string): DeviceState | null;
   changed(): void;
+  /** Whether the picture shows the past. */
+  isPast(): boolean;
+  /** Show what is. */
+  toLive(): void;
 }
 
 type Motion =
@@ -82,10 +86,16 @@ export class Hand {
     return this.around.tree()?.cast(this.orbit.ray(x, y)) ?? null;
   }
 
-  /** Begin to press, or to grasp; false when there is nothing under the cursor or no such device. */
+  /** Whether the picture shows the past, by which nobody can lead a device. */
+  get past(): boolean {
+    return this.around.isPast();
+  }
+
+  /** Begin to press, or to grasp, after a picture of the past has given way to the live one; false when there is nothing under the cursor or no such device. */
   begin(x: number, y: number, pull: boolean): boolean {
     const hit = this.device === null ? null : this.pick(x, y);
     if (!hit) return false;
+    this.around.toLive();
     this.take();
     if (pull) {
       const start = pressTarget(hit, this.around.probeRadiusM(), GRASP_DEPTH_M);
@@ -115,7 +125,7 @@ export class Hand {
 
   /** The cursor moves over the picture with nothing pressed. */
   hover(x: number, y: number): void {
-    if (this.hold !== "ours" || this.active) return;
+    if (this.hold !== "ours" || this.active || this.past) return;
     const hit = this.pick(x, y);
     if (!hit) {
       this.stop();
@@ -135,6 +145,11 @@ export class Hand {
     this.movedMs = performance.now();
     this.say(hoverTarget(motion.hit, this.around.probeRadiusM()));
     this.around.changed();
+  }
+
+  /** Lead the device nowhere until the next press. */
+  rest(): void {
+    if (this.motion.kind !== "away") this.stop();
   }
 
   /** The cursor left the picture: targets stop. */

@@ -82,7 +82,7 @@ export class HandPanel {
       refused: hand.reason === "" ? "another page holds the device" : hand.reason,
     };
     const outOfReach = hand.hold === "ours" && hand.outOfReach;
-    this.hold.dataset.level = hand.hold === "refused" || outOfReach ? "error" : "";
-    write(this.hold, outOfReach ? "out of the device's reach" : texts[hand.hold]);
+    this.hold.dataset.level = (hand.hold === "refused" || outOfReach) && !hand.past ? "error" : "";
+    write(this.hold, hand.past ? "looking back: a press goes to live" : outOfReach ? "out of the device's reach" : texts[hand.hold]);
   }
 }

@@ -1,4 +1,4 @@
-// The last 60 s, to look back at: states and surfaces with the time at which they arrived.
+// The last 60 s, to look back at: states and surfaces with their times.
 //
 // Memory is bounded. A surface costs 16 bytes for each moved vertex; when all of them together would cost more than the
 // budget, every second one is forgotten and from then on only every second one is kept, and so on. States are small and
@@ -73,11 +73,18 @@ class Track<T> {
     this.entries = [];
     this.first = 0;
   }
+
+  /** The same frames, whatever is pushed and forgotten later. */
+  copy(): Track<T> {
+    const copy = new Track<T>();
+    copy.entries = this.entries.slice(this.first);
+    return copy;
+  }
 }
 
 export class History {
-  private readonly surfaces = new Track<SurfaceFrame>();
-  private readonly states = new Track<StateFrame>();
+  private surfaces = new Track<SurfaceFrame>();
+  private states = new Track<StateFrame>();
   private bytes = 0;
   private stride = 1;
   private skipped = 0;
@@ -126,6 +133,15 @@ export class History {
 
   get surfaceCount(): number {
     return this.surfaces.count;
+  }
+
+  /** The same, whatever is added to this one later; frames are shared. */
+  copy(): History {
+    const copy = new History(this.budgetBytes);
+    copy.surfaces = this.surfaces.copy();
+    copy.states = this.states.copy();
+    copy.bytes = this.bytes;
+    return copy;
   }
 
   /** For a new mesh: its vertices are others. */

@@ -41,7 +41,7 @@ function start(): void {
   const devices = new DevicesPanel(find("devices"));
   const nodes = new NodesPanel(find("nodes"));
   const parameters = new ParametersPanel(find("parameters"), (name, value) => app.setParameter(name, value));
-  const plots = new Plots(find("plots"), () => app.recorder.series, (agoS) => timeline.set(agoS));
+  const plots = new Plots(find("plots"), () => app.recorder.minute.series, (agoS) => timeline.set(agoS));
   const marks = new FrameMarks(find("frame"));
   const timeline = new Timeline(find("timeline"), (agoS) => {
     app.lookBack(agoS);
@@ -75,9 +75,10 @@ function start(): void {
       showScene(app);
     },
     hand: () => handPanel?.show(),
-    recorded(timeS) {
-      plots.update(timeS);
-      timeline.setReach(timeS - (app.recorder.history.oldestS ?? timeS));
+    live: () => timeline.set(0),
+    recorded({ endS, history }) {
+      plots.update(endS);
+      timeline.setReach(endS - (history.oldestS ?? endS));
     },
   };
   const app = new App(stage, notices, views);
@@ -130,9 +131,8 @@ function wireButtons(app: App, stage: Stage): void {
     );
   });
   on("csv", () => {
-    const { series, serverColumn, pausedS } = app.recorder;
-    const toS = pausedS ?? nowS();
-    const text = csv(series, app.recorder.devices, toS - HISTORY_S, toS, serverColumn);
+    const { minute, devices, serverColumn } = app.recorder;
+    const text = csv(minute.series, devices, minute.endS - HISTORY_S, minute.endS, serverColumn);
     download(new Blob([text], { type: "text/csv" }), `rhombus-${fileStamp(new Date())}.csv`);
   });
   const toggle = find("panel-toggle");

@@ -62,9 +62,13 @@ export class Series {
     });
   }
 
-  clear(): void {
-    this.next = 0;
-    this.filled = 0;
+  /** The same rows, whatever is appended to this one later. */
+  copy(): Series {
+    const copy = new Series(this.columns, this.capacity);
+    copy.values.set(this.values);
+    copy.next = this.next;
+    copy.filled = this.filled;
+    return copy;
   }
 
   private offset(i: number): number {

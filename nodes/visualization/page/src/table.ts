@@ -13,7 +13,10 @@ const COLUMNS: readonly [number, string][] = [
   [4, "missed_deadlines_per_s"],
 ];
 
-/** Rows between two times of the page, s; the first column is the time of the server's state, s. */
+/**
+ * Rows between two times of the axis, s; the first column is the time of the server's state, s. A row without it and without
+ * numbers stands for a time in which nothing was heard.
+ */
 export function csv(series: Series, devices: readonly string[], fromS: number, toS: number, serverColumn: number): string {
   const header = ["time_s", "seconds_before_end"];
   for (const device of devices) {
