@@ -3,14 +3,18 @@
 import type { DeviceStatus, NodeStatus, Status } from "./messages.ts";
 
 /**
- * The value of a key for a device: from a status that names the device, else from the only one that has the key. A status
- * of the driver is called "/left/haptic_device: force", one of the model "/deformation: left". NaN: not said.
+ * The status that says a key for a device: one that names the device, else the only one that has the key. A status of the
+ * driver is called "/left/haptic_device: force", one of the model "/deformation: left".
  */
-export function valueFor(status: Status | null, device: string, key: string): number {
+function statusFor(status: Status | null, device: string, key: string): NodeStatus | undefined {
   const having = status?.nodes.filter((node) => key in node.values) ?? [];
   const named = device === "" ? undefined : having.find((node) => names(node, device));
-  const chosen = named ?? (device === "" || having.length === 1 ? having[0] : undefined);
-  const value = chosen?.values[key];
+  return named ?? (device === "" || having.length === 1 ? having[0] : undefined);
+}
+
+/** The value of a key for a device. NaN: not said. */
+export function valueFor(status: Status | null, device: string, key: string): number {
+  const value = statusFor(status, device, key)?.values[key];
   return value === undefined || value.trim() === "" ? NaN : Number(value);
 }
 
@@ -23,18 +27,24 @@ export class Growth {
   private last: { timeS: number; count: number } | null = null;
   private perSecond = NaN;
 
-  /** A count that went back belongs to a node that was restarted. */
+  /** A count and the time at which it was so. One that went back belongs to a node that was restarted. */
   update(timeS: number, count: number): number {
     if (!Number.isFinite(count)) return this.perSecond;
     const { last } = this;
-    if (last === null || count < last.count) {
-      this.last = { timeS, count };
-      this.perSecond = 0;
-    } else if (timeS - last.timeS >= 0.9) {
-      this.perSecond = (count - last.count) / (timeS - last.timeS);
-      this.last = { timeS, count };
-    }
+    if (last?.timeS === timeS) return this.perSecond;
+    const seconds = last === null ? 0 : timeS - last.timeS;
+    this.perSecond = last === null || seconds < 0 || count < last.count ? 0 : (count - last.count) / seconds;
+    this.last = { timeS, count };
     return this.perSecond;
+  }
+
+  /** The same of a value in the diagnostics of a device, from each of its stamps to the next. NaN: nobody says it now. */
+  of(status: Status | null, device: string, key: string): number {
+    const node = statusFor(status, device, key);
+    if (node && node.level !== "stale" && node.stamp_s !== null) return this.update(node.stamp_s, valueFor(status, device, key));
+    this.last = null;
+    this.perSecond = NaN;
+    return NaN;
   }
 }
 

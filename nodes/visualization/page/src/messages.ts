@@ -70,6 +70,8 @@ export interface NodeStatus {
   readonly name: string;
   readonly level: Level;
   readonly summary: string;
+  /** When the node said so, s; null: not known. */
+  readonly stamp_s: number | null;
   readonly values: Readonly<Record<string, string>>;
 }
 
@@ -231,7 +233,7 @@ function node(json: Fields): NodeStatus {
   if (isFields(json.values)) for (const [key, value] of Object.entries(json.values)) values[key] = text(value);
   const levels: readonly Level[] = ["ok", "warn", "error", "stale"];
   const level = levels.find((one) => one === json.level) ?? "stale";
-  return { name: text(json.name), level, summary: text(json.summary), values };
+  return { name: text(json.name), level, summary: text(json.summary), stamp_s: limit(json.stamp_s), values };
 }
 
 function device(json: Fields): DeviceStatus {

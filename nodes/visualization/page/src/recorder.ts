@@ -2,7 +2,7 @@
 // looks back looks at a copy of the minute before he began, so that it stays while the next minute is recorded.
 
 import { Clock } from "./clock.ts";
-import { Growth, valueFor } from "./diagnostics.ts";
+import { Growth } from "./diagnostics.ts";
 import type { DeviceState, StateFrame, SurfaceFrame } from "./frames.ts";
 import { History } from "./history.ts";
 import { length } from "./vector.ts";
@@ -78,7 +78,7 @@ export class Recorder {
     if (this.series.length > 0 && timeS - this.endS > SILENCE_S) this.series.push((this.endS + timeS) / 2, row);
     this.devices.forEach((name, device) => {
       const one = state.devices[device];
-      const missed = this.growth[device].update(timeS, valueFor(status, name, "missed_deadlines"));
+      const missed = this.growth[device].of(status, name, "missed_deadlines");
       if (!one) return;
       row[column(device, 0)] = depthMm(one);
       row[column(device, 1)] = one.forceHeard ? length(one.force) : NaN;

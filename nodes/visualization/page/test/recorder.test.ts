@@ -1,9 +1,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { decode, type StateFrame, type SurfaceFrame } from "../src/frames.ts";
+import type { Status } from "../src/messages.ts";
+import { parse } from "../src/messages.ts";
 import { column } from "../src/plots.ts";
 import { Recorder } from "../src/recorder.ts";
 import { stateFrame, surfaceFrame } from "./bytes.ts";
+
+const MISSED = 4;
 
 const state = (sequence: number, serverTimeS: number): StateFrame => ({
   ...(decode(stateFrame(sequence, [{ flags: 7, depth: 0.002, mode: 1 }])) as StateFrame),
@@ -13,12 +17,39 @@ const surface = (sequence: number, stampS: number): SurfaceFrame => ({
   ...(decode(surfaceFrame(sequence, 1, [0], [0, 0, 0])) as SurfaceFrame),
   stampS,
 });
+const driver = (stampS: number, missed: number, level = "ok"): Status =>
+  parse(JSON.stringify({ type: "status", nodes: [{ name: "/haptic_device: force", level, stamp_s: stampS, values: { missed_deadlines: String(missed) } }] })) as Status;
 
 function recorder(): Recorder {
   const made = new Recorder();
   made.setDevices([""]);
   return made;
 }
+
+/** Missed deadlines a second at each row. */
+const missedOf = ({ minute: { series } }: Recorder): number[] =>
+  Array.from({ length: series.length }, (_, i) => series.value(i, column(0, MISSED)));
+
+test("a steady 100 missed deadlines a second is 100, whenever the page hears of them", () => {
+  const made = recorder();
+  for (let i = 0; i < 60 * 20; i += 1) {
+    const timeS = i / 60;
+    // Diagnostics once a second and a bit, which the page hears of up to a quarter of a second later.
+    const stampS = Math.floor((timeS - 0.13) / 1.003) * 1.003;
+    made.addState(timeS, state(i, 1000 + timeS), driver(stampS, Math.round(100 * (stampS + 2))));
+  }
+  const rates = missedOf(made).slice(180);
+  assert.ok(Math.max(...rates) < 101 && Math.min(...rates) > 99, `${Math.min(...rates)} to ${Math.max(...rates)}`);
+});
+
+test("a driver that has gone silent misses an unknown number of deadlines", () => {
+  const made = recorder();
+  [0, 1, 2].forEach((timeS) => made.addState(timeS, state(timeS, timeS), driver(timeS, 10 * timeS)));
+  made.addState(2.3, state(3, 2.3), driver(2, 20, "stale"));
+  assert.ok(Number.isNaN(missedOf(made).at(-1)));
+  made.addState(2.4, state(4, 2.4), driver(9, 900));
+  assert.equal(missedOf(made).at(-1), 0, "what happened meanwhile is not of the last second");
+});
 
 test("rows lie as far apart as the server's times, and a step of its clock does not turn the axis round", () => {
   const made = recorder();

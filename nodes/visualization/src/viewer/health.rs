@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
-use node_kit::{Inbox, NodeKit, StartError, topics};
+use node_kit::{Inbox, NodeKit, StartError, convert, topics};
 use r2r::crtk_msgs::msg::OperatingState;
 use r2r::diagnostic_msgs::msg::{DiagnosticArray, DiagnosticStatus};
 
@@ -86,8 +86,9 @@ impl Health {
     /// Take over what arrived.
     pub(crate) fn hear(&mut self, now: Instant) {
         while let Some(array) = self.diagnostics.take() {
+            let stamp_s = convert::stamp_ns(&array.header.stamp) as f64 * 1e-9;
             for status in &array.status {
-                self.hear_status(now, status);
+                self.hear_status(now, stamp_s, status);
             }
         }
         for device in &mut self.devices {
@@ -97,10 +98,10 @@ impl Health {
         }
     }
 
-    fn hear_status(&mut self, now: Instant, status: &DiagnosticStatus) {
+    fn hear_status(&mut self, now: Instant, stamp_s: f64, status: &DiagnosticStatus) {
         let known = self.statuses.contains_key(&status.name);
         if status.name.starts_with(&self.prefix) && (known || self.statuses.len() < MAX_STATUSES) {
-            self.statuses.insert(status.name.clone(), (now, health(status)));
+            self.statuses.insert(status.name.clone(), (now, health(stamp_s, status)));
         }
     }
 
@@ -249,7 +250,7 @@ impl Health {
     }
 }
 
-fn health(status: &DiagnosticStatus) -> NodeHealth {
+fn health(stamp_s: f64, status: &DiagnosticStatus) -> NodeHealth {
     let shortened = |text: &str| text.chars().take(MAX_TEXT).collect::<String>();
     let values = status.values.iter().take(MAX_VALUES);
     NodeHealth {
@@ -261,6 +262,7 @@ fn health(status: &DiagnosticStatus) -> NodeHealth {
             _ => "stale",
         },
         summary: shortened(&status.message),
+        stamp_s,
         values: values.map(|entry| (shortened(&entry.key), shortened(&entry.value))).collect(),
     }
 }
@@ -280,8 +282,9 @@ mod tests {
             hardware_id: String::new(),
             values,
         };
-        let health = health(&status);
+        let health = health(7.5, &status);
         assert_eq!((health.name.as_str(), health.level), ("/left/deformation: right", "warn"));
+        assert_eq!(health.stamp_s, 7.5);
         assert_eq!((health.summary.len(), health.values["rate_hz"].len()), (MAX_TEXT, MAX_TEXT));
     }
 }

@@ -34,6 +34,8 @@ pub(crate) struct NodeHealth {
     /// "ok", "warn", "error" or "stale".
     pub(crate) level: &'static str,
     pub(crate) summary: String,
+    /// When it said so, s.
+    pub(crate) stamp_s: f64,
     pub(crate) values: BTreeMap<String, String>,
 }
 
