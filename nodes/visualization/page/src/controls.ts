@@ -19,11 +19,16 @@ type Drag = "orbit" | "pan" | "hand";
 /** A turn of the wheel by a notch pulls by this much, m. */
 const NOTCH_M = 0.001;
 const KEY_TURN_PX = 24;
+/** A finger on the body waits for a second one this long, ms, or until it has moved this far, px. */
+const FINGER_WAITS_MS = 120;
+const FINGER_STAYS_PX = 6;
 
 export class Controls {
   private readonly touches = new Map<number, { x: number; y: number }>();
   private drag: Drag | null = null;
   private keyPress = false;
+  /** A finger of which it is not known yet whether it presses or is the first of a pinch. */
+  private finger: { readonly at: { x: number; y: number }; readonly timer: ReturnType<typeof setTimeout> } | null = null;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -41,6 +46,8 @@ export class Controls {
     document.addEventListener("keydown", (event) => this.keyDown(event));
     document.addEventListener("keyup", (event) => this.keyUp(event));
     canvas.addEventListener("blur", () => this.endKeyPress());
+    // A window in the background hears no key that is let go.
+    window.addEventListener("blur", () => this.endKeyPress());
   }
 
   private down(event: PointerEvent): void {
@@ -48,8 +55,13 @@ export class Controls {
     const at = place(event);
     this.touches.set(event.pointerId, at);
     if (this.touches.size > 1) {
+      this.forgetFinger();
       if (this.drag === "hand") this.hand.end();
       this.drag = this.touches.size === 2 ? "orbit" : "pan";
+      return;
+    }
+    if (event.pointerType === "touch") {
+      this.finger = { at, timer: setTimeout(() => this.decideFinger(), FINGER_WAITS_MS) };
       return;
     }
     this.drag = this.dragOf(event, at);
@@ -60,9 +72,27 @@ export class Controls {
   private dragOf(event: PointerEvent, at: { x: number; y: number }): Drag {
     if (event.button === 1) return "pan";
     if (event.button === 2) return event.shiftKey ? "pan" : "orbit";
+    return this.begins(at.x, at.y, event.shiftKey) ? "hand" : "orbit";
+  }
+
+  /** Whether the chosen tool, or with Shift the pull, begins at a place. */
+  private begins(x: number, y: number, shift: boolean): boolean {
     const tool = this.commands.tool();
-    if (tool !== "look" && this.hand.begin(at.x, at.y, event.shiftKey || tool === "pull")) return "hand";
-    return "orbit";
+    return tool !== "look" && this.hand.begin(x, y, shift || tool === "pull");
+  }
+
+  /** The finger stays alone. */
+  private decideFinger(): void {
+    const { finger } = this;
+    if (!finger) return;
+    this.forgetFinger();
+    this.drag = this.begins(finger.at.x, finger.at.y, false) ? "hand" : "orbit";
+    this.showCursor();
+  }
+
+  private forgetFinger(): void {
+    clearTimeout(this.finger?.timer);
+    this.finger = null;
   }
 
   private move(event: PointerEvent): void {
@@ -75,6 +105,10 @@ export class Controls {
     if (this.touches.size > 1) {
       this.moveTouches(event.pointerId, before, at);
       return;
+    }
+    if (this.finger) {
+      if (Math.hypot(at.x - this.finger.at.x, at.y - this.finger.at.y) < FINGER_STAYS_PX) return;
+      this.decideFinger();
     }
     this.touches.set(event.pointerId, at);
     if (this.drag === "hand") this.hand.move(at.x, at.y);
@@ -99,6 +133,7 @@ export class Controls {
 
   private up(event: PointerEvent): void {
     this.touches.delete(event.pointerId);
+    this.forgetFinger();
     if (this.touches.size > 0) return;
     if (this.drag === "hand") {
       this.hand.end();
@@ -149,7 +184,7 @@ export class Controls {
       "?": () => this.commands.help(),
       escape: () => this.hand.release(),
       " ": () => {
-        if (!repeated) this.beginKeyPress();
+        if (!repeated) this.beginKeyPress(shift);
       },
     };
     const action = Object.hasOwn(actions, key.toLowerCase()) ? actions[key.toLowerCase()] : undefined;
@@ -162,11 +197,10 @@ export class Controls {
     else this.hand.setDepth(this.hand.depthM + steps * DEPTHS_M.step);
   }
 
-  /** Without a mouse: press what is in the middle of the picture. */
-  private beginKeyPress(): void {
+  /** Without a mouse: the tool at what is in the middle of the picture. */
+  private beginKeyPress(shift: boolean): void {
     const { clientWidth, clientHeight } = this.canvas;
-    if (this.commands.tool() === "look") return;
-    this.keyPress = this.hand.begin(clientWidth / 2, clientHeight / 2, false);
+    this.keyPress = this.begins(clientWidth / 2, clientHeight / 2, shift);
   }
 
   private keyUp(event: KeyboardEvent): void {
