@@ -12,7 +12,7 @@ import { chromium } from "playwright-core";
 
 export const url = process.env.RHOMBUS_VIEWER_URL;
 const executablePath = process.env.RHOMBUS_CHROMIUM ?? "/usr/bin/chromium";
-const artefacts = process.env.RHOMBUS_VIEWER_ARTEFACTS ?? join(import.meta.dirname, "artefacts");
+export const artefacts = process.env.RHOMBUS_VIEWER_ARTEFACTS ?? join(import.meta.dirname, "artefacts");
 
 const ARGUMENTS = [
   "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",

@@ -98,6 +98,10 @@ def test_fingers_and_keys_press_and_pull_only_when_they_mean_it(tmp_path):
     Browser(tmp_path, "hand.test.js").assert_passes()
 
 
+def test_a_saved_picture_says_what_it_shows(tmp_path):
+    Browser(tmp_path, "figure.test.js").assert_passes()
+
+
 def test_the_mouse_presses_the_organ_and_the_page_shows_what_the_model_says(session, tmp_path):
     address, parameters = session
     remote = peer.Peer()

@@ -11,6 +11,15 @@ const QUANTITIES: readonly [Quantity, string][] = [
   ["stiffness", "Stiffness"],
 ];
 
+/** What a quantity is called. */
+export const titleOf = (quantity: Quantity): string => QUANTITIES.find(([one]) => one === quantity)?.[1] ?? quantity;
+
+/** What stands at the beginning, the middle and the end of a scale. */
+export function labels({ from, to, unit }: Scale): [string, string, string] {
+  if (from === to) return ["", `${short(from)} ${unit}`, ""];
+  return [short(from), short((from + to) / 2), `${short(to)} ${unit}`];
+}
+
 export class Legend {
   private readonly inputs = new Map<Quantity, HTMLInputElement>();
   private readonly canvas = h("canvas", { width: STEPS, height: 1, class: "scale", role: "img" });
@@ -44,8 +53,7 @@ export class Legend {
     if (key === this.shown) return;
     this.shown = key;
     const { from, to, unit } = scale;
-    const texts = from === to ? ["", `${short(from)} ${unit}`, ""] : [from, (from + to) / 2, to].map((value) => short(value));
-    if (from !== to) texts[2] += ` ${unit}`;
+    const texts = labels(scale);
     this.ticks.forEach((tick, i) => write(tick, texts[i]));
     const spoken = from === to ? texts[1] : `${short(from)} to ${short(to)} ${unit}`;
     this.canvas.setAttribute("aria-label", `Colour scale, ${scale.quantity}: ${spoken}`);

@@ -8,6 +8,7 @@ import type { ConnectionState } from "./connection.ts";
 import { Controls } from "./controls.ts";
 import { DevicesPanel } from "./devices_panel.ts";
 import { download, fileStamp, find, remember, remembered, write } from "./dom.ts";
+import { caption } from "./figure.ts";
 import { FrameMarks } from "./frame_marks.ts";
 import { HandPanel } from "./hand_panel.ts";
 import { HISTORY_S } from "./history.ts";
@@ -125,7 +126,12 @@ function wireButtons(app: App, stage: Stage): void {
   on("reset", () => stage.orbit.reset());
   on("help", () => find<HTMLDialogElement>("keys").showModal());
   on("png", () => {
-    stage.png(2).then(
+    const draw = (context: CanvasRenderingContext2D, widthPx: number, heightPx: number): void => {
+      const { scale, orbit } = stage;
+      const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
+      if (scale) caption(context, widthPx, heightPx, rem, { scale, orbit, frame: app.hello?.body_frame ?? "" });
+    };
+    stage.png(2, draw).then(
       (blob) => download(blob, `rhombus-${fileStamp(new Date())}.png`),
       (error: unknown) => app.notices.set("png", String(error), 6000),
     );

@@ -143,15 +143,32 @@ export class Stage {
     else request();
   }
 
-  /** The picture in full, as PNG; `scale` times as many pixels each way as on the screen. */
-  async png(scale: number): Promise<Blob> {
-    const most = Math.sqrt(MOST_PIXELS / (this.widthPx * this.heightPx));
+  /**
+   * The picture in full, as PNG; `scale` times as many pixels each way as on the screen. `draw` adds to it, in CSS pixels: it
+   * is given the size of the picture.
+   */
+  async png(scale: number, draw: (context: CanvasRenderingContext2D, widthPx: number, heightPx: number) => void): Promise<Blob> {
+    const { widthPx, heightPx, canvas } = this;
+    const most = Math.sqrt(MOST_PIXELS / (widthPx * heightPx));
     this.setPixelRatio(Math.min(window.devicePixelRatio * scale, Math.max(most, 1)));
     this.drawNow();
-    const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, "image/png"));
+    const picture = document.createElement("canvas");
+    [picture.width, picture.height] = [canvas.width, canvas.height];
+    const context = picture.getContext("2d");
+    if (context) {
+      context.drawImage(canvas, 0, 0);
+      context.scale(canvas.width / widthPx, canvas.height / heightPx);
+      draw(context, widthPx, heightPx);
+    }
+    const blob = await new Promise<Blob | null>((resolve) => picture.toBlob(resolve, "image/png"));
     this.invalidate();
-    if (!blob) throw new Error("this browser makes no PNG of the picture");
+    if (!blob || !context) throw new Error("this browser makes no PNG of the picture");
     return blob;
+  }
+
+  /** What the colours stand for; null: there is no body. */
+  get scale(): Scale | null {
+    return this.colouring?.scale ?? null;
   }
 
   get unitCount(): number {
