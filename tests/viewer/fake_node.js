@@ -20,6 +20,7 @@ export class FakeNode {
   /** Whether a page that asks for the pointer gets it; how many gave it back. */
   grants = true;
   released = 0;
+  operatingState = "ENABLED";
   pages = new Set();
   /** Numbers of the frames of each kind. */
   sequence = [0, 0, 0, 0];
@@ -139,7 +140,7 @@ export class FakeNode {
   }
 
   status() {
-    const device = { name: "", operating_state: "ENABLED", homed: true, busy: false, pointer: this.pointer, pose_age_s: 0.001, alive: true, ...this.device };
+    const device = { name: "", operating_state: this.operatingState, homed: true, busy: false, pointer: this.pointer, pose_age_s: 0.001, alive: true, ...this.device };
     const force = { name: "/haptic_device: force", level: "ok", summary: "poses are answered", stamp_s: Math.floor(Date.now() / 1000), values: { missed_deadlines: "0" } };
     const { publishers, pages } = this;
     return { type: "status", nodes: [force], devices: [device], publishers, pages: pages.size, not_drawn: this.notDrawn };

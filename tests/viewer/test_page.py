@@ -102,6 +102,10 @@ def test_a_saved_picture_says_what_it_shows(tmp_path):
     Browser(tmp_path, "figure.test.js").assert_passes()
 
 
+def test_notices_and_panels_leave_the_body_to_be_seen(tmp_path):
+    Browser(tmp_path, "layout.test.js").assert_passes()
+
+
 def test_the_mouse_presses_the_organ_and_the_page_shows_what_the_model_says(session, tmp_path):
     address, parameters = session
     remote = peer.Peer()

@@ -73,6 +73,7 @@ function start(): void {
     },
     body() {
       find("waiting").hidden = true;
+      find("stage").classList.remove("bodiless");
       showScene(app);
     },
     hand: () => handPanel?.show(),
