@@ -37,7 +37,7 @@ test("the CSV has what is applied and what is commanded under names of their own
   recorder.setDevices(["left"]);
   recorder.addState(1, frame(APPLIED, 0, 1.25), null);
   recorder.addState(2, frame(COMMANDED, 1.5, 1.5), null);
-  const [header, ...rows] = csv(recorder.series, recorder.devices, 0, 3, recorder.serverColumn).trim().split("\n").map((line) => line.split(","));
+  const [header, ...rows] = csv(recorder.minute.series, recorder.devices, 0, 3, recorder.serverColumn).trim().split("\n").map((line) => line.split(","));
   const [applied, commanded] = ["left_applied_force_n", "left_commanded_force_n"].map((name) => header.indexOf(name));
   assert.deepEqual(rows.map((row) => [row[applied], row[commanded]]), [["0", "1.25"], ["", "1.5"]]);
 });
