@@ -3,7 +3,7 @@
 
 /** A step back, or this much more than has passed on the page, is another clock of the server, s. */
 const OTHER_CLOCK_S = 60;
-/** A surface whose stamp is further from the server's time than this is stamped by another clock, s. */
+/** A surface whose stamp is further than this before the newest state, or after now, is stamped by another clock, s. */
 const SAME_CLOCK_S = 1;
 
 export class Clock {
@@ -30,7 +30,8 @@ export class Clock {
     const { last, offsetS } = this;
     const arrivedS = last === null ? arrivalS : last.serverS + offsetS + (arrivalS - last.arrivalS);
     const stampedS = stampS + offsetS;
-    const ofServer = last !== null && Math.abs(stampedS - arrivedS) < SAME_CLOCK_S;
+    // A page that was held up takes what came meanwhile later than it is.
+    const ofServer = last !== null && stampedS > last.serverS + offsetS - SAME_CLOCK_S && stampedS < arrivedS + SAME_CLOCK_S;
     this.surfaceS = Math.max(ofServer ? stampedS : arrivedS, this.surfaceS);
     return this.surfaceS;
   }

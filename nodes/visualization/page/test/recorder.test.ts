@@ -69,7 +69,11 @@ test("a surface is kept at its stamp, or, when that is of another clock, when it
   made.addState(10, state(0, 1000), null);
   made.addSurface(10.3, surface(1, 1000.1));
   made.addSurface(10.6, surface(2, 5));
+  // The page was held up: the surface is older than its arrival says.
+  made.addState(11, state(1, 1001), null);
+  made.addSurface(15, surface(3, 1001.2));
   const { history } = made.minute;
+  assert.equal(history.surfaceAt(11.3)?.sequence, 3);
   assert.deepEqual([10.05, 10.2, 10.5, 10.7].map((timeS) => history.surfaceAt(timeS)?.sequence ?? null), [null, 1, 1, 2]);
 });
 
