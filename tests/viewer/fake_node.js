@@ -112,7 +112,7 @@ export class FakeNode {
     if (this.full) {
       const reason = "1 pages are open, and more are not served (viewer.max_pages)";
       socket.send(JSON.stringify({ type: "refused", reason }));
-      socket.close(1013, reason);
+      socket.close(1013, "no page is free");
       return;
     }
     this.pages.add(socket);

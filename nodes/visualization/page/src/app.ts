@@ -176,8 +176,7 @@ export class App {
         break;
       case "refused":
         this.refusals += 1;
-        // A page that is not taken is told so by its close.
-        if (this.connection.isGreeted) this.notices.set("refused", `Refused: ${message.reason}`, REFUSAL_MS);
+        if (this.connection.onRefused(message.reason)) this.notices.set("refused", `Refused: ${message.reason}`, REFUSAL_MS);
         break;
       case "pong":
         this.connection.onPong(message.t);

@@ -46,6 +46,8 @@ export class Connection {
   private opened = false;
   /** The node has said hello: it takes the page. */
   private greeted = false;
+  /** Why it does not take the page, in its words. */
+  private refusal = "";
   private timer: ReturnType<typeof setTimeout> | undefined;
   private current: ConnectionState = { phase: "connecting", attempt: 1 };
 
@@ -60,7 +62,8 @@ export class Connection {
         this.listener.onOpen();
       },
       closed: (code, reason) => {
-        if (this.current.phase !== "waiting") this.lost(reason || "the node does not answer", code === FULL_CODE);
+        const full = code === FULL_CODE;
+        if (this.current.phase !== "waiting") this.lost((full && this.refusal) || reason || "the node does not answer", full);
       },
       text: (text) => {
         this.heard();
@@ -105,8 +108,9 @@ export class Connection {
     this.heard();
   }
 
-  /** Whether the node has taken the page. */
-  get isGreeted(): boolean {
+  /** The node refused something; false when that is the page itself, which its close tells. */
+  onRefused(reason: string): boolean {
+    if (!this.greeted) this.refusal = reason;
     return this.greeted;
   }
 
@@ -122,6 +126,7 @@ export class Connection {
     clearTimeout(this.timer);
     this.opened = false;
     this.greeted = false;
+    this.refusal = "";
     this.startedMs = performance.now();
     this.become({ phase: "connecting", attempt: this.failures + 1 });
     this.link.open(this.url);
