@@ -7,6 +7,9 @@ use crate::topic::Topic;
 /// Counts and times that get longer until the recording is closed, and what a list of topics has around it.
 const MARGIN_BYTES: u64 = 200;
 
+/// Digits that the count of a topic gets beyond its first one.
+const MORE_DIGITS: u64 = 19;
+
 /// What is left for topics.
 pub(super) struct Room {
     version: u32,
@@ -26,10 +29,10 @@ impl Room {
 
     /// Whether there is room for one more topic, which is taken then.
     pub(super) fn take(&mut self, topic: &Topic) -> Result<bool, Error> {
-        let topic = entry(topic, u64::MAX);
+        let topic = entry(topic, 0);
         let with_it = size(&Metadata::of_one_file("", None, vec![topic], "", self.version))?;
         // Without topics there is "[]" in place of a line break and the entry.
-        let bytes = (with_it + 3).saturating_sub(self.empty_bytes);
+        let bytes = (with_it + 3 + MORE_DIGITS).saturating_sub(self.empty_bytes);
         let left = self.left_bytes.checked_sub(bytes);
         self.left_bytes = left.unwrap_or(self.left_bytes);
         Ok(left.is_some())
