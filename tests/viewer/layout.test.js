@@ -46,31 +46,31 @@ function covered() {
   return hidden / seen;
 }
 
-for (const [name, width, height] of [["phone", 400, 800], ["landscape", 850, 390], ["wide", 1280, 720], ["uhd", 3840, 2160]]) {
-  for (const theme of ["light", "dark"]) {
-    test(`${name}, ${theme}: notices lie over nothing, and can be closed; the body is seen`, async (t) => {
-      const node = await new FakeNode({ vertices: 800, pointer: true }).listen();
-      const page = await visit(t, node, { width, height, theme });
-      await page.locator("#hand").waitFor();
-      await page.waitForTimeout(300);
-      const share = await page.evaluate(covered);
-      node.publishers = { body_mesh: 1, surface_displacement: 0, contact_state: 0 };
-      node.operatingState = "FAULT";
-      node.say(node.status());
-      await until(page, () => document.querySelectorAll(".notice").length === 2);
-      await keep(page, `notices-${name}-${theme}`);
-      const withNotices = await page.evaluate(covered);
-      t.diagnostic(`covered: ${(100 * share).toFixed(0)} % of the body, with notices ${(100 * withNotices).toFixed(0)} %`);
-      assert.deepEqual(await page.evaluate(overlaps), []);
-      assert.ok(share < 0.2 && withNotices < 0.3, `${share} and ${withNotices} of the body are covered`);
-      await page.evaluate(() => document.querySelector(".notice button").click());
-      await until(page, () => document.querySelectorAll(".notice").length <= 1);
-      const closed = (await read(page, "notices")).length;
-      node.say(node.status());
-      await page.waitForTimeout(600);
-      assert.ok((await read(page, "notices")).length <= closed, "what was closed stays closed while it is still so");
-    });
-  }
+// Places do not depend on colours; pages of both themes at these sizes are looked at in page.test.js.
+const SIZES = [["phone", 400, 800, "light"], ["landscape", 850, 390, "dark"], ["wide", 1280, 720, "light"], ["uhd", 3840, 2160, "dark"]];
+for (const [name, width, height, theme] of SIZES) {
+  test(`${name}, ${theme}: notices lie over nothing, and can be closed; the body is seen`, async (t) => {
+    const node = await new FakeNode({ vertices: 800, pointer: true }).listen();
+    const page = await visit(t, node, { width, height, theme });
+    await page.locator("#hand").waitFor();
+    await page.waitForTimeout(300);
+    const share = await page.evaluate(covered);
+    node.publishers = { body_mesh: 1, surface_displacement: 0, contact_state: 0 };
+    node.operatingState = "FAULT";
+    node.say(node.status());
+    await until(page, () => document.querySelectorAll(".notice").length === 2);
+    await keep(page, `notices-${name}-${theme}`);
+    const withNotices = await page.evaluate(covered);
+    t.diagnostic(`covered: ${(100 * share).toFixed(0)} % of the body, with notices ${(100 * withNotices).toFixed(0)} %`);
+    assert.deepEqual(await page.evaluate(overlaps), []);
+    assert.ok(share < 0.2 && withNotices < 0.3, `${share} and ${withNotices} of the body are covered`);
+    await page.evaluate(() => document.querySelector(".notice button").click());
+    await until(page, () => document.querySelectorAll(".notice").length <= 1);
+    const closed = (await read(page, "notices")).length;
+    node.say(node.status());
+    await page.waitForTimeout(600);
+    assert.ok((await read(page, "notices")).length <= closed, "what was closed stays closed while it is still so");
+  });
 }
 
 test("before there is a body nothing speaks of it: no scale, no axes, no colours", async (t) => {
