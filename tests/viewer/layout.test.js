@@ -32,6 +32,16 @@ function overlaps() {
   return boxes.flatMap((a, i) => boxes.slice(i + 1).filter((b) => meet(a, b)).map((b) => `${a.name} and ${b.name}`));
 }
 
+/** In the page: notices whose button is covered or cut off. */
+function unreachable() {
+  const notices = [...document.querySelectorAll(".notice")].filter((notice) => {
+    const button = notice.querySelector("button");
+    const { left, top, width, height } = button.getBoundingClientRect();
+    return document.elementFromPoint(left + width / 2, top + height / 2) !== button;
+  });
+  return notices.map((notice) => notice.textContent);
+}
+
 /** In the page: the share of the body, as it is seen, that something covers. */
 function covered() {
   const { left, top, width, height } = document.getElementById("picture").getBoundingClientRect();
@@ -63,6 +73,7 @@ for (const [name, width, height, theme] of SIZES) {
     const withNotices = await page.evaluate(covered);
     t.diagnostic(`covered: ${(100 * share).toFixed(0)} % of the body, with notices ${(100 * withNotices).toFixed(0)} %`);
     assert.deepEqual(await page.evaluate(overlaps), []);
+    assert.deepEqual(await page.evaluate(unreachable), [], "notices whose button cannot be clicked");
     assert.ok(share < 0.2 && withNotices < 0.3, `${share} and ${withNotices} of the body are covered`);
     await page.evaluate(() => document.querySelector(".notice button").click());
     await until(page, () => document.querySelectorAll(".notice").length <= 1);
