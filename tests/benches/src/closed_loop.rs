@@ -199,7 +199,12 @@ impl Topics {
                 self.law = Some(LawCommand { stamp_ns, validity_ns: 100_000_000, local, chains });
             } else {
                 let wrench = Wrench::of_force(floor.force_n(&self.chains, probe));
-                self.servo = Some(ServoCommand { since_ns: now_ns, wrench, axes: Axes::Base });
+                self.servo = Some(ServoCommand {
+                    since_ns: now_ns,
+                    gripper_until_ns: u64::MAX,
+                    wrench,
+                    axes: Axes::Base,
+                });
             }
         }
     }
