@@ -279,7 +279,8 @@ def test_the_clutch_is_a_latched_button_where_there_is_one(start, peer):
     [
         ({"body.pose": [3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]}, ["body.pose", "device.scene_from_device", "0.18"]),
         ({"body.mesh": "nowhere.obj"}, ["body.mesh", "nowhere.obj"]),
-        ({"clutch.button": "thumb"}, ["clutch.button", "thumb", '"31"']),
+        ({"clutch.button": "thumb"}, ["clutch.button", "thumb", "the number of one"]),
+        ({"clutch.button": "9"}, ["clutch.button", '"9"', "buttons (", "the number of one"]),
         ({"device.rate": 5000.0}, ["device.rate", "5000", "4000"]),
         ({"device.backend": "wand"}, ["device.backend", "wand", "simulated"]),
     ],

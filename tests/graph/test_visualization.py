@@ -343,8 +343,12 @@ def test_nan_and_displacements_of_another_mesh_are_counted_and_not_drawn(start):
     session.wait_for(lambda: session.value("not_drawable") == 3, "NaN in a contact is counted")
     bad_pose = pose()
     bad_pose.pose.orientation.w = 0.5
-    session.publish("measured_cp", bad_pose)
-    session.wait_for(lambda: session.value("not_drawable") == 4, "a quaternion that is no rotation is counted")
+    # Poses are only looked at, so best effort: one of them alone may be lost.
+    session.wait_for(
+        lambda: session.value("not_drawable") > 3,
+        "a quaternion that is no rotation is counted",
+        meanwhile=lambda: session.publish("measured_cp", bad_pose),
+    )
     assert any(level == 1 for level, _, _ in session.reports()), "diagnostics warn"
 
     session.spin(1.5)
