@@ -160,6 +160,8 @@ test("a node that comes back with the same body leaves the last minute and the p
   await until(page, () => window.rhombus.connection.phase === "waiting");
   assert.equal(await page.locator(".numbers dd").first().textContent(), shown, "the numbers of the past stay");
   await keep(page, "looking-back-lost");
+  // Longer than what counts as silence, however quick the page is to come back.
+  await page.waitForTimeout(1000);
   node = await new FakeNode({ vertices: 800 }).listen(first.port);
   await until(page, () => window.rhombus.connection.phase === "connected");
   await page.waitForTimeout(500);
