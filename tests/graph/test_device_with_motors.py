@@ -133,14 +133,18 @@ def test_a_device_that_is_unplugged_is_a_fault_and_comes_back_disabled_from_forc
     peer.spin(0.5)
     assert state() == "FAULT" and driver.process.poll() is None, "nothing to enable, and the node lives"
 
+    told = lambda: driver.log().count("the lost device is looked for: ")
+    peer.wait_for(lambda: told() == 1, "why it is not opened again")
     count = len(poses)
     double.plug()
     peer.wait_for(lambda: len(poses) > count + 10, "poses again")
     assert state() == "FAULT", "until somebody says so"
     peer.publish(StringStamped(string="enable"), "state_command", reliable(10))
     peer.wait_for(lambda: state() == "ENABLED", "the device enabled again")
+    double.pull()
+    peer.wait_for(lambda: told() == 2, "the reason, told for this loss as well")
     assert driver.interrupt()[0] == 0
-    assert driver.closing_report()["losses"] == 1
+    assert driver.closing_report()["losses"] == 2
 
 
 def test_no_device_at_the_start_is_one_clear_error(start, double, tmp_path):

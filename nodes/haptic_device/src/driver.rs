@@ -103,7 +103,7 @@ pub(crate) fn run(kit: &mut NodeKit, around: impl FnOnce(Box<dyn Device>) -> Box
         #[cfg(feature = "pointer")]
         pointer,
         report,
-        not_reopened: String::new(),
+        not_reopened: (0, String::new()),
         max_force_n,
     }
     .run(kit)
@@ -121,8 +121,8 @@ struct Driver {
     #[cfg(feature = "pointer")]
     pointer: Option<Pointer>,
     report: OperatingReport,
-    /// Why a lost device was not opened again, as it was told last.
-    not_reopened: String,
+    /// Which loss of the device was told last, and why it was not opened again.
+    not_reopened: (u64, String),
     max_force_n: f64,
 }
 
@@ -166,13 +166,13 @@ impl Driver {
         Ok(self.desk.take(kit, &mut self.motor)?)
     }
 
-    /// Says why a lost device is not opened again; the same reason once.
+    /// Says why a lost device is not opened again; the same reason once for each loss.
     fn tell_lost_device(&mut self, kit: &NodeKit) {
-        if let Some(why) = self.motor.take_not_reopened()
-            && why != self.not_reopened
-        {
-            kit.log().warn(&format!("the lost device is looked for: {why}"));
-            self.not_reopened = why;
+        let Some(why) = self.motor.take_not_reopened() else { return };
+        let told = (self.motor.counts().losses, why);
+        if told != self.not_reopened {
+            kit.log().warn(&format!("the lost device is looked for: {}", told.1));
+            self.not_reopened = told;
         }
     }
 

@@ -140,7 +140,10 @@ impl StopTopic {
         }
         // Whose stop it was is not in the message; with several stops only all of them together may release it.
         if !pressed {
-            self.look(kit);
+            // Where nobody can be looked up there may be several.
+            if !self.look(kit) {
+                return;
+            }
             if self.publishers.len() > 1 {
                 kit.log().error(&format!(
                     "{}: not released, because {} publish it; stop all but one",
@@ -155,12 +158,14 @@ impl StopTopic {
         kit.log().warn(&format!("emergency stop {how} ({})", self.name()));
     }
 
-    fn look(&mut self, kit: &NodeKit) {
+    /// Looks who publishes; false when that is not to be learnt.
+    fn look(&mut self, kit: &NodeKit) -> bool {
         let before = self.unheard();
         match kit.publishers_of(&topics::EMERGENCY_STOP, &self.namespace) {
             Ok(publishers) => self.publishers = publishers,
             Err(error) => {
                 kit.log().error(&format!("{}: its publishers cannot be looked up: {error}", self.name()));
+                return false;
             }
         }
         if let Some(unheard) = self.unheard()
@@ -168,6 +173,7 @@ impl StopTopic {
         {
             kit.log().error(&unheard);
         }
+        true
     }
 
     fn ask_those_who_keep(&mut self, kit: &mut NodeKit) -> Result<(), StartError> {
