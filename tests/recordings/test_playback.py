@@ -262,6 +262,7 @@ def gadget(path):
         ({"replay.qos": ["measured_cp=fast"]}, ["replay.qos", "fast", "best_effort"]),
         ({"replay.qos": ["nothing=reliable"]}, ["replay.qos", "/nothing"]),
         ({"replay.start": -1.0}, ["replay.start", "-1"]),
+        ({"replay.start": 1e5}, ["replay.start", "100000 s", "ends", "after its first message"]),
         ({"replay.lockstep": True, "replay.topics": ["clutch"]}, ["replay.lockstep", "no poses", "/clutch"]),
         ({"replay.lockstep": True, "devices": ["left"]}, ["replay.lockstep", "left", "/measured_cp"]),
     ],

@@ -10,7 +10,6 @@ mod offer;
 mod outlets;
 mod player;
 mod progress;
-mod remap;
 mod schedule;
 mod settings;
 mod sim_clock;
@@ -41,6 +40,7 @@ const LINGER: Duration = Duration::from_millis(500);
 pub(crate) fn run(kit: &mut NodeKit, settings: &PlaySettings) -> anyhow::Result<()> {
     let recording = Recording::open(&settings.path)?;
     tell_damage(kit.log(), &recording);
+    check_start(&recording, settings)?;
     let outlets = outlets::open(kit, &recording, settings)?;
     let node = RawNode::new(kit)?;
     let clock = match settings.clock_period {
@@ -188,6 +188,21 @@ fn check_types_in_graph(node: &RawNode, outlets: &[Outlet]) -> anyhow::Result<()
                  name with replay.remap"
             );
         }
+    }
+    Ok(())
+}
+
+/// A start behind the end would play nothing and call that a success.
+fn check_start(recording: &Recording, settings: &PlaySettings) -> anyhow::Result<()> {
+    let Some((first_ns, last_ns)) = recording.log_time_bounds_ns() else { return Ok(()) };
+    let length = Duration::from_nanos(last_ns.saturating_sub(first_ns));
+    if settings.start > length {
+        bail!(
+            "replay.start is {} s, and {} ends {} s after its first message",
+            settings.start.as_secs_f64(),
+            recording.path().display(),
+            length.as_secs_f64()
+        );
     }
     Ok(())
 }

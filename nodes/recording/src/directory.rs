@@ -52,7 +52,9 @@ impl Directory {
                 directory.files.push(file);
             }
         }
-        let is_listed = !directory.files.is_empty();
+        // Names of which none is there say nothing of the files that are.
+        let is_listed = unlisted.len() < present.len();
+        let named = directory.files.len();
         let listed: BTreeSet<Series> = directory.files.iter().map(|file| part(file).0).collect();
         // A recorder that is killed has not named its last files yet.
         for file in present.into_iter().filter(|file| unlisted.contains(file)) {
@@ -71,12 +73,14 @@ impl Directory {
             taken.insert(file.clone());
             directory.files.push(file);
         }
-        if !is_listed && let Some(found) = several(&directory.files) {
+        let there = directory.files.get(named..).unwrap_or_default();
+        if !is_listed && let Some(found) = several(there) {
             return Err(Error::SeveralRecordings { path: path.to_owned(), found });
         }
         if !is_listed || directory.has_unlisted_parts {
             // A recorder that keeps the newest parts deletes the first ones, and its metadata does not name them.
-            let holes = holes(&directory.files, (!is_listed).then_some(0));
+            let files = if is_listed { &directory.files } else { there };
+            let holes = holes(files, (!is_listed).then_some(0));
             directory.has_missing_parts = !holes.is_empty();
             directory.disagreements.extend(holes);
         }

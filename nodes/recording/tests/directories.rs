@@ -189,6 +189,20 @@ fn a_missing_part_is_damage_and_the_others_are_read() {
 }
 
 #[test]
+fn where_nothing_that_metadata_names_is_there_what_is_there_is_read() {
+    let text = metadata(9, 100, &["other_0.mcap"]);
+    let first = file(PLAIN, 0..100, 50);
+    let (_guard, path) = directory(&[("session_0.mcap", &first), ("metadata.yaml", text.as_bytes())]);
+    let (messages, damage, disagreements) = found(&path);
+    assert_eq!(messages, (0..100).collect::<Vec<_>>());
+    assert!(damage.len() == 1 && damage[0].contains("other_0.mcap"), "{damage:?}");
+    assert!(disagreements.iter().any(|told| told.contains("names other_0.mcap")), "{disagreements:?}");
+    std::fs::write(path.join("another_0.mcap"), &first).unwrap();
+    let error = Recording::open(&path).map(drop).unwrap_err().to_string();
+    assert!(error.contains("another_0.mcap; session_0.mcap"), "{error}");
+}
+
+#[test]
 fn a_part_that_metadata_does_not_name_yet_is_read_and_a_copy_in_another_storage_is_not() {
     let text = metadata(9, 100, &["session_0.mcap"]);
     let (first, second) = (file(PLAIN, 0..100, 50), file(PLAIN, 100..200, 50));

@@ -7,10 +7,9 @@ use node_kit::{NodeKit, topics};
 use r2r::PublisherUntyped;
 use r2r::qos::ReliabilityPolicy;
 use recording::messages::is_same;
-use recording::{RecordedTopic, Recording, Topic};
+use recording::{RecordedTopic, Recording, Topic, remapped};
 
 use super::content::Content;
-use super::remap;
 use super::settings::PlaySettings;
 use crate::{graph, names, session};
 
@@ -85,7 +84,14 @@ fn selected(
         .filter(|(_, name)| settings.topics.is_empty() || is_named(name))
         .collect();
     let recorded: Vec<&str> = wanted.iter().map(|(_, name)| *name).collect();
-    let targets = remap::targets(&recorded, &settings.remappings)?;
+    if let Some((_, name)) = recorded
+        .iter()
+        .enumerate()
+        .find(|(number, name)| recorded.iter().take(*number).any(|other| other == *name))
+    {
+        bail!("{name} is recorded with two types, and a topic has one; replay.topics has to leave it out");
+    }
+    let targets = remapped(&recorded, &settings.remappings).context("replay.remap")?;
     let answers = if settings.lockstep.is_some() { answers(kit, &settings.devices) } else { Vec::new() };
     let mut selected = Vec::new();
     for ((number, name), target) in wanted.into_iter().zip(targets) {

@@ -7,8 +7,7 @@ use anyhow::{Context, bail};
 use node_kit::NodeKit;
 
 use super::offer::QosRule;
-use super::remap::Remapping;
-use crate::settings;
+use crate::{names, settings};
 
 /// How to play.
 pub(crate) struct PlaySettings {
@@ -26,8 +25,8 @@ pub(crate) struct PlaySettings {
     pub(crate) paused: bool,
     /// Absolute names in the recording; empty for all.
     pub(crate) topics: Vec<String>,
-    /// Other names for topics of the recording.
-    pub(crate) remappings: Vec<Remapping>,
+    /// Other names for topics of the recording: absolute ones there, and in the graph.
+    pub(crate) remappings: Vec<(String, String)>,
     /// Quality of service in place of the recorded one.
     pub(crate) qos: Vec<QosRule>,
     /// Time between two messages on `/clock`; none for no such topic.
@@ -71,7 +70,7 @@ impl PlaySettings {
             topics: settings::topics(kit, "replay.topics")?,
             remappings: given("replay.remap")?
                 .into_iter()
-                .map(|text| Remapping::parse(text, namespace))
+                .map(|text| remapping(text, namespace))
                 .collect::<Result<_, _>>()?,
             qos: given("replay.qos")?
                 .into_iter()
@@ -90,5 +89,29 @@ impl PlaySettings {
                 .context("replay.wait_for_readers")?,
             devices: parameters.texts("devices")?.to_vec(),
         })
+    }
+}
+
+/// Reads `FROM:=TO`; relative names stand in `namespace`.
+fn remapping(text: &str, namespace: &str) -> anyhow::Result<(String, String)> {
+    let Some((from, to)) = text.split_once(":=") else {
+        bail!("replay.remap: {text:?} has no \":=\"; accepted: FROM:=TO, two names of topics");
+    };
+    let name = |name: &str| names::topic(namespace, name.trim(), "replay.remap");
+    Ok((name(from)?, name(to)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn relative_names_of_a_remapping_stand_in_the_namespace() {
+        let read = |text: &str| remapping(text, "/or").unwrap();
+        assert_eq!(read("a := left/a"), ("/or/a".to_owned(), "/or/left/a".to_owned()));
+        assert_eq!(read("/b:=x"), ("/b".to_owned(), "/or/x".to_owned()));
+        for text in ["a", "a:b", "a:=", ":=b", "a:=b c", "a:=b:=c"] {
+            assert!(remapping(text, "/").is_err(), "{text}");
+        }
     }
 }
