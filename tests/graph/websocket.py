@@ -107,7 +107,8 @@ class Page:
         self.bytes = 0
 
     def poll(self):
-        """Take what has arrived. Never waits."""
+        """Take what has arrived, with the answer to the greeting or since. Never waits."""
+        self.take_frames()
         while self.closed is None and select.select([self.socket], [], [], 0)[0]:
             try:
                 part = self.socket.recv(1 << 20)

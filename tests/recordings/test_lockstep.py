@@ -139,6 +139,8 @@ def test_every_pose_is_answered_with_the_bits_of_the_replay_without_ros_idle_and
     def run(folder):
         deformation = programs(model(folder, **names))
         recorder = programs(record_answers(folder, devices))
+        answers = [f"/{device}servo_cf" for device in devices]
+        remote.wait_for(lambda: all(remote.node.count_subscribers(name) > 0 for name in answers), "the recorder")
         remote.spin(0.5)
         program = programs(replay(folder, path, **names))
         assert ended(remote, program) == 0, program.log()

@@ -101,10 +101,10 @@ for (const [vertices, rate] of [[3116, 60], [50_000, 40]]) {
   test(`${vertices} vertices: every update that is sent is received and applied`, async (t) => {
     const { node, page } = await visit(t, { vertices });
     node.play(rate);
-    await page.waitForTimeout(1500);
+    await page.waitForTimeout(1000);
     const sample = () => page.evaluate(() => ({ ...window.rhombus.counters, ms: performance.now() }));
     const before = await sample();
-    await page.waitForTimeout(4000);
+    await page.waitForTimeout(2500);
     const now = await sample();
     const perSecond = (key) => ((now[key] - before[key]) / (now.ms - before.ms)) * 1000;
     t.diagnostic(`received ${perSecond("received").toFixed(1)}/s, applied ${perSecond("applied").toFixed(1)}/s, pictures ${perSecond("pictures").toFixed(1)}/s, ${await read(page, "renderer")}`);
