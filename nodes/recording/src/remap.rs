@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 #[non_exhaustive]
 pub enum RemapError {
     /// A rule for what is not there.
-    #[error("{name} is not among the recorded topics that are used: {topics}")]
+    #[error("{name} is not among the topics {topics}")]
     NotRecorded {
         /// What the rule names.
         name: String,
@@ -93,6 +93,6 @@ mod tests {
         assert_eq!(one_name, "/a and /b would both be /b; one of them needs another name");
         assert!(error(&["/a", "/b"], &[("/a", "/c"), ("/b", "/c")]).contains("both be /c"));
         assert_eq!(error(&["/a"], &[("/a", "/b"), ("/a", "/c")]), "/a is given two names, /b and /c");
-        assert_eq!(error(&["/a"], &[("/c", "/d")]), "/c is not among the recorded topics that are used: /a");
+        assert_eq!(error(&["/a"], &[("/c", "/d")]), "/c is not among the topics /a");
     }
 }

@@ -281,7 +281,7 @@ fn what_cannot_be_compared_is_exit_code_2_and_one_sentence() {
         ("README.md", &[], "README.md"),
         (empty.to_str().unwrap(), &[], "no poses on /measured_cp"),
         ("tests/bags/two_devices", &[], "--namespace"),
-        ("tests/bags/press", &["--remap", "/a:=/b"], "/a is not in the recording"),
+        ("tests/bags/press", &["--remap", "/a:=/b"], "/a is not among the topics /measured_cp"),
         ("tests/bags/press", &["--expect", "tests/bags/nowhere"], "tests/bags/nowhere"),
         ("tests/bags/press", &["--record", &golden], "exists already"),
     ];
