@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::mesh::SurfaceMesh;
 use crate::proxy::Proxy;
+use crate::response::{Response, ResponseError};
 use crate::stiffness_map::{StiffnessMap, StiffnessMapError};
 use crate::surface_index::SurfaceIndex;
 
@@ -13,13 +14,14 @@ pub struct Body {
     mesh: SurfaceMesh,
     index: SurfaceIndex,
     stiffness: Option<StiffnessMap>,
+    response: Option<Response>,
 }
 
 impl Body {
     /// Builds the spatial index of `mesh`.
     #[must_use]
     pub fn new(mesh: SurfaceMesh) -> Self {
-        Self { index: SurfaceIndex::new(&mesh), mesh, stiffness: None }
+        Self { index: SurfaceIndex::new(&mesh), mesh, stiffness: None, response: None }
     }
 
     /// The same body with a factor on the contact law for each point; without one it is as the law says everywhere.
@@ -29,6 +31,21 @@ impl Body {
     pub fn with_stiffness(self, map: StiffnessMap) -> Result<Self, StiffnessMapError> {
         map.check(&self.mesh)?;
         Ok(Self { stiffness: Some(map), ..self })
+    }
+
+    /// The same body with a calibrated answer of its surface; without one it is that of parallel chains.
+    ///
+    /// # Errors
+    /// A response made for another surface.
+    pub fn with_response(self, response: Response) -> Result<Self, ResponseError> {
+        response.check(&self.mesh)?;
+        Ok(Self { response: Some(response), ..self })
+    }
+
+    /// The calibrated answer of the surface, where there is one.
+    #[must_use]
+    pub fn response(&self) -> Option<&Response> {
+        self.response.as_ref()
     }
 
     /// The factors on the contact law, where they are not all 1.

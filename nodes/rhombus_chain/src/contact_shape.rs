@@ -201,6 +201,43 @@ impl ContactShape {
         if self.expands { 2.0 * self.boundary_rings } else { self.boundary_rings }
     }
 
+    /// P.
+    pub(crate) fn chains(&self) -> usize {
+        self.chains.len()
+    }
+
+    /// `1 - q^(s/h)` of a chain.
+    pub(crate) fn drop(&self, chain: usize, s_m: f64) -> f64 {
+        self.chains.get(chain).map_or(0.0, |chain| -libm::expm1(s_m * chain.units_per_m * chain.ln_ratio))
+    }
+
+    /// `1 / (1 - q^m)` of a chain at the present depth.
+    pub(crate) fn drop_scale(&self, chain: usize) -> f64 {
+        self.chains.get(chain).map_or(1.0, |chain| match chain.falloff {
+            Falloff::Steep { scale, .. } | Falloff::Flat { scale, .. } => scale,
+        })
+    }
+
+    /// `1 / max(h, r_c)` of a chain.
+    pub(crate) fn ramp_per_m(&self, chain: usize) -> f64 {
+        self.chains.get(chain).map_or(1.0, |chain| chain.ramp_per_m)
+    }
+
+    /// The largest `n h`, m: no boundary is farther.
+    pub(crate) fn longest_chain_m(&self) -> f64 {
+        self.chains.iter().map(|chain| chain.units * chain.pitch_m).fold(0.0, f64::max)
+    }
+
+    /// The smallest length in which a chain's shape falls to 1/e, m.
+    pub(crate) fn steepest_fall_m(&self) -> f64 {
+        self.chains.iter().map(|chain| -chain.pitch_m / chain.ln_ratio).fold(f64::INFINITY, f64::min)
+    }
+
+    /// `r_c`, m.
+    pub(crate) fn contact_radius_m(&self) -> f64 {
+        self.contact_radius_m
+    }
+
     /// `s = max(arc - r_c, 0)`, m.
     #[inline]
     pub fn s_m(&self, arc_m: f64) -> f64 {

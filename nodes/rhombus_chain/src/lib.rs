@@ -26,6 +26,7 @@ mod parameter_error;
 mod parameters;
 mod pose;
 mod proxy;
+mod response;
 mod rings;
 mod session;
 mod session_time;
@@ -52,6 +53,9 @@ pub use mesh::{Inspection, MeshError, SurfaceMesh, SurfacePoint, inspect};
 pub use parameter_error::ParameterError;
 pub use parameters::{ChainParameters, Formulation, Spread, SurfaceParameters};
 pub use pose::{Pose, PoseError};
+pub use response::{
+    MOST_CHAINS, MOST_HARMONICS, MOST_MODES, Response, ResponseError, ResponseParts, tangent_frame,
+};
 pub use session::{MeasuredPose, Session, SessionParts, SurfaceMoment};
 pub use session_time::SessionTime;
 pub use stamp_rate::StampRate;

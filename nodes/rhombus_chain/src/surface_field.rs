@@ -4,11 +4,13 @@ use glam::DVec3;
 
 use crate::arc_length::ArcLengths;
 use crate::body::Body;
+use crate::contact_law::elongation_m;
 use crate::contact_shape::{ContactShape, Displacement};
 use crate::expansion::Expansion;
 use crate::interaction::Impression;
 use crate::mesh::{SurfacePoint, length};
 use crate::parameters::Spread;
+use crate::response::{DirectionalField, Response};
 use crate::rings::Rings;
 use crate::tissue::Tissue;
 
@@ -46,6 +48,8 @@ struct Moved {
 enum Spreading {
     Geodesic(Box<ArcLengths>),
     Rings(Rings),
+    /// On a calibrated body.
+    Directional(Box<DirectionalField>),
 }
 
 /// Vertices around one contact, in ascending order, with their arc lengths or ring numbers.
@@ -64,7 +68,7 @@ impl SurfaceField {
         Self {
             tissue: tissue.clone(),
             shape: tissue.shape(),
-            spreading: Spreading::new(body, tissue.surface().spread),
+            spreading: Spreading::new(body, tissue),
             expansion: Expansion::new(tissue.surface().expansion, vertices),
             neighbourhoods: vec![Neighbourhood::new(vertices)],
             moved: Moved::new(vertices),
@@ -92,8 +96,13 @@ impl SurfaceField {
             if self.shape.set_depth(tissue.law(), impression.depth_m).is_err() {
                 continue;
             }
-            self.explore(body, place, impression.at);
-            self.displace(body, place, &impression);
+            match calibrated(body, tissue) {
+                Some(response) => self.displace_calibrated(body, response, &impression),
+                None => {
+                    self.explore(body, place, impression.at);
+                    self.displace(body, place, &impression);
+                }
+            }
             if place == 0 {
                 std::mem::swap(&mut self.moved, &mut self.own);
             } else {
@@ -121,6 +130,7 @@ impl SurfaceField {
         let spreading = match &self.spreading {
             Spreading::Geodesic(arcs) => arcs.memory_bytes(),
             Spreading::Rings(rings) => rings.memory_bytes(),
+            Spreading::Directional(field) => field.memory_bytes(),
         };
         let moved = [&self.moved, &self.own, &self.merged].map(Moved::memory_bytes).iter().sum::<usize>();
         let pair = size_of::<(u32, f64)>();
@@ -130,9 +140,17 @@ impl SurfaceField {
     }
 
     fn retune(&mut self, body: &Body, tissue: &Tissue) {
-        if self.tissue.surface().spread != tissue.surface().spread {
-            self.spreading = Spreading::new(body, tissue.surface().spread);
-            self.neighbourhoods.iter_mut().for_each(|near| near.key = None);
+        match &mut self.spreading {
+            Spreading::Directional(field) if calibrated(body, tissue).is_some() => {
+                field.retune(&tissue.shape())
+            }
+            Spreading::Geodesic(_) | Spreading::Rings(_)
+                if self.tissue.surface().spread == tissue.surface().spread
+                    && calibrated(body, tissue).is_none() => {}
+            _ => {
+                self.spreading = Spreading::new(body, tissue);
+                self.neighbourhoods.iter_mut().for_each(|near| near.key = None);
+            }
         }
         self.expansion = Expansion::new(tissue.surface().expansion, body.mesh().vertices().len());
         self.shape = tissue.shape();
@@ -145,7 +163,7 @@ impl SurfaceField {
             self.neighbourhoods.push(Neighbourhood::new(body.mesh().vertices().len()));
         }
         let limit = match self.spreading {
-            Spreading::Geodesic(_) => rounded_up(self.shape.reach_m()),
+            Spreading::Geodesic(_) | Spreading::Directional(_) => rounded_up(self.shape.reach_m()),
             Spreading::Rings(_) => rounded_up(self.shape.reach_rings()),
         };
         let key = Some((at, limit));
@@ -162,6 +180,7 @@ impl SurfaceField {
                 near.vertices.extend(arcs.iter());
             }
             Spreading::Rings(rings) => rings.solve(body.mesh(), at, limit, &mut near.vertices),
+            Spreading::Directional(_) => {} // has its own
         }
         near.vertices.sort_unstable_by_key(|&(vertex, _)| vertex);
     }
@@ -207,6 +226,39 @@ impl SurfaceField {
             expansion.add(mesh, &self.own.vertices, &mut self.own.displacements);
         }
     }
+
+    /// As [`displace`](Self::displace), on a calibrated body.
+    fn displace_calibrated(&mut self, body: &Body, response: &Response, impression: &Impression) {
+        let Spreading::Directional(field) = &mut self.spreading else { return };
+        let (mesh, shape, own) = (body.mesh(), &self.shape, &mut self.own);
+        own.clear();
+        if let Some(expansion) = &mut self.expansion {
+            expansion.begin();
+        }
+        let elongation_m = elongation_m(impression.depth_m);
+        field.solve(mesh, response, shape, impression, |moved| {
+            let displacement = moved.displacement * elongation_m;
+            if let Some(expansion) = &mut self.expansion {
+                let area_m2 = mesh.vertex_areas()[moved.vertex as usize];
+                expansion.note(
+                    shape,
+                    Spread::Geodesic,
+                    moved.s_m,
+                    displacement.dot(impression.normal),
+                    area_m2,
+                );
+            }
+            own.push(moved.vertex, displacement + impression.lateral_m * moved.share);
+        });
+        if let Some(expansion) = &self.expansion {
+            expansion.add(mesh, &own.vertices, &mut own.displacements);
+        }
+    }
+}
+
+/// The response that decides the field: one that was made for as many chains.
+fn calibrated<'a>(body: &'a Body, tissue: &Tissue) -> Option<&'a Response> {
+    body.response().filter(|response| response.chains() == tissue.law().chains().len())
 }
 
 /// Direction away from the contact in its tangent plane, for a vertex at `offset` from it: a unit vector,
@@ -228,8 +280,15 @@ fn rounded_up(reach: f64) -> f64 {
 }
 
 impl Spreading {
-    fn new(body: &Body, spread: Spread) -> Self {
-        match spread {
+    fn new(body: &Body, tissue: &Tissue) -> Self {
+        if let Some(response) = calibrated(body, tissue) {
+            return Self::Directional(Box::new(DirectionalField::new(
+                body.mesh(),
+                response,
+                &tissue.shape(),
+            )));
+        }
+        match tissue.surface().spread {
             Spread::Geodesic => Self::Geodesic(Box::new(ArcLengths::new(body.mesh()))),
             Spread::Rings => Self::Rings(Rings::new(body.mesh())),
         }

@@ -1,12 +1,13 @@
 //! From the scene's `body.*` to a body the model can use, and what is worth a warning about it.
 
 use std::fmt;
+use std::path::Path;
 
 use glam::DVec3;
-use rhombus_chain::Body;
+use rhombus_chain::{Body, Spread};
 
 use crate::mesh_file::MeshFile;
-use crate::{MeshSource, Problem, Scene, SceneError, read_stiffness_map};
+use crate::{MeshSource, Problem, Scene, SceneError, load_response, read_stiffness_map};
 
 /// A body, and what its owner should know about it.
 #[derive(Debug)]
@@ -47,11 +48,11 @@ impl fmt::Display for Warning {
 const LIKELY_EXTENT_M: std::ops::RangeInclusive<f64> = 0.005..=2.0;
 
 impl Scene {
-    /// Reads or generates the rest surface of `body.mesh`, in metres, and reads its `body.stiffness_map`.
+    /// Reads or generates the rest surface of `body.mesh`, in metres, and reads its `body.stiffness_map` or `body.response`.
     ///
     /// # Errors
-    /// The mesh file cannot be read or is not a closed, manifold, outward oriented surface; the map cannot be read or does
-    /// not fit the mesh.
+    /// The mesh file cannot be read or is not a closed, manifold, outward oriented surface; the map or the calibrated body
+    /// cannot be read or does not fit the mesh or the chains.
     pub fn load_body(&self) -> Result<LoadedBody, SceneError> {
         let scale = self.body.scale;
         let (name, file) = match &self.body.mesh {
@@ -68,7 +69,26 @@ impl Scene {
                 self.parameters().error("body.stiffness_map", Problem::Stiffness(error.to_string()))
             })?;
         }
+        if let Some(path) = &self.body.response {
+            body = self.with_response(body, path)?;
+        }
         Ok(LoadedBody { body, warnings })
+    }
+
+    /// A body as it was calibrated.
+    fn with_response(&self, body: Body, path: &Path) -> Result<Body, SceneError> {
+        let refused = |reason: String| self.parameters().error("body.response", Problem::Response(reason));
+        if self.body.stiffness_map.is_some() {
+            return Err(refused(
+                "has a stiffness map of its own; accepted: without body.stiffness_map".to_owned(),
+            ));
+        }
+        if self.surface.spread != Spread::Geodesic {
+            return Err(refused("is not made for rings; accepted: surface.spread: geodesic".to_owned()));
+        }
+        let loaded = load_response(path, body.mesh(), &self.law()?)?;
+        let body = body.with_stiffness(loaded.stiffness).map_err(|fault| refused(fault.to_string()))?;
+        body.with_response(loaded.response).map_err(|fault| refused(fault.to_string()))
     }
 }
 

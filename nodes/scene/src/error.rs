@@ -181,6 +181,9 @@ pub enum Problem {
     /// A stiffness map that does not fit its mesh, or is none.
     #[error("{0}")]
     Stiffness(String),
+    /// A calibrated body that does not fit its mesh or its chains, or is none.
+    #[error("{0}")]
+    Response(String),
 }
 
 fn did_you_mean(nearest: Option<&'static str>) -> String {

@@ -41,6 +41,7 @@ mod mesh_source;
 mod origin;
 mod parameters;
 mod plan;
+mod response_file;
 mod scene;
 pub mod schema;
 mod sections;
@@ -62,6 +63,10 @@ pub use mesh_file::{MeshFile, Obj};
 pub use origin::Origin;
 pub use parameters::Parameters;
 pub use plan::{LeftOut, Part, Plan, PlannedTopic, TopicState};
+pub use response_file::{
+    ChainShape, LoadedResponse, RegionError, ResponseFile, ResponseHeader, load_response, mesh_checksum,
+    read_response,
+};
 pub use scene::Scene;
 pub use schema::{Check, DefaultValue, Kind, Length, Node, ParameterSpec, schema};
 pub use sections::Reader;

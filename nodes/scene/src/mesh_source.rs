@@ -1,4 +1,4 @@
-//! `body.mesh` and `body.stiffness_map`: from what a person wrote to a generated body or a file that can be opened.
+//! `body.mesh`, `body.stiffness_map` and `body.response`: from what a person wrote to a generated body or a file that can be opened.
 
 use std::path::{Path, PathBuf};
 
@@ -24,9 +24,8 @@ impl MeshSource {
     }
 }
 
-/// The file of `body.stiffness_map`; none when it is "".
-pub(crate) fn stiffness_map(p: &Parameters) -> Result<Option<PathBuf>, SceneError> {
-    let key = "body.stiffness_map";
+/// The file that `key` names; none when it is "".
+pub(crate) fn file_of_body(p: &Parameters, key: &'static str) -> Result<Option<PathBuf>, SceneError> {
     let text = p.text(key)?;
     if text.is_empty() { Ok(None) } else { resolved(p, key, text).map(Some) }
 }

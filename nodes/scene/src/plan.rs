@@ -159,7 +159,20 @@ impl Scene {
                 let what = format!("{}: {low} to {high} times the contact law", path.display());
                 plan.build("stiffness map", Node::Deformation, what, Some(map.memory_bytes()));
             }
+            (None, Some(map)) => {
+                let (low, high) = map.range();
+                let what = format!("of the calibrated body: {low} to {high} times the contact law");
+                plan.build("stiffness map", Node::Deformation, what, Some(map.memory_bytes()));
+            }
             _ => plan.leave_out("stiffness map", "body.stiffness_map is \"\""),
+        }
+        match (&self.body.response, body.response()) {
+            (Some(path), Some(response)) => {
+                let (harmonics, modes) = (response.harmonics(), response.modes());
+                let what = format!("{}: {harmonics} harmonics, {modes} body modes", path.display());
+                plan.build("calibrated response", Node::Deformation, what, Some(response.memory_bytes()));
+            }
+            _ => plan.leave_out("calibrated response", "body.response is \"\""),
         }
         let index_bytes = body.index().memory_bytes();
         plan.build(

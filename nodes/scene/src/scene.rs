@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rhombus_chain::{ContactLaw, ParameterError, Pose, SurfaceParameters, Tissue, TissueError};
 
-use crate::mesh_source::stiffness_map;
+use crate::mesh_source::file_of_body;
 use crate::settings::{
     BodySettings, DeviceSettings, GraspSettings, MeshSource, ProbeSettings, RecordingSettings,
     ReplaySettings, SessionSettings, SimulatedSettings, SurfaceSettings, ViewerSettings,
@@ -74,7 +74,8 @@ impl Scene {
             body: BodySettings {
                 mesh: MeshSource::resolve(&p)?,
                 scale: p.double("body.scale")?,
-                stiffness_map: stiffness_map(&p)?,
+                stiffness_map: file_of_body(&p, "body.stiffness_map")?,
+                response: file_of_body(&p, "body.response")?,
                 frame_id: p.text("body.frame_id")?.to_owned(),
                 scene_from_body: pose(&p, "body.pose")?,
             },

@@ -15,6 +15,8 @@ pub struct BodySettings {
     pub scale: f64,
     /// Factors on the contact law; none where it is the same everywhere. The path is resolved.
     pub stiffness_map: Option<PathBuf>,
+    /// The file of the calibrated body; none where chains are the same in all directions. The path is resolved.
+    pub response: Option<PathBuf>,
     /// Frame of the rest surface.
     pub frame_id: String,
     /// Pose of the body in the scene.

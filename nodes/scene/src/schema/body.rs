@@ -39,6 +39,17 @@ pub(super) const PARAMETERS: &[ParameterSpec] = &[
         help: "CSV file with a factor on the contact law for each vertex of the mesh (path as body.mesh); \"\": the law is the same everywhere.",
     },
     ParameterSpec {
+        name: "body.response",
+        kind: Kind::String,
+        unit: "",
+        default: DefaultValue::String(""),
+        check: Check::Any,
+        length: Length::Any,
+        live: false,
+        owners: &[Node::Deformation, Node::Visualization],
+        help: "Calibrated body (path as body.mesh): how the surface answers in each direction, and its own stiffness map; \"\": the chains are the same in all directions.",
+    },
+    ParameterSpec {
         name: "body.frame_id",
         kind: Kind::String,
         unit: "",
