@@ -103,7 +103,8 @@ class Plan:
         check_names(given, assignments)
         self.scene = options.scene
         self.namespace = "/" + options.namespace.strip("/")
-        everywhere = [("body.mesh", json.dumps(options.mesh))] if options.mesh else []
+        # A calibrated body is for one mesh.
+        everywhere = [("body.mesh", json.dumps(options.mesh)), ("body.response", '""')] if options.mesh else []
         everywhere += [(each.key, each.value) for each in assignments if not each.device]
         self.devices = given or scene_devices(self.scene, everywhere)
         names = [device.name for device in self.devices]

@@ -34,9 +34,20 @@ impl InContact {
                     "{name} would make the force jump: accepted while no device touches the body"
                 ));
             }
-            model::check(values).map_err(|error| error.to_string())
+            let scene = model::check(values).map_err(|error| error.to_string())?;
+            match changes_the_shape(changes).filter(|_| scene.body.response.is_some()) {
+                Some(name) => Err(format!(
+                    "{name} is that of the calibrated body (body.response); accepted: the chains that it was made for"
+                )),
+                None => Ok(()),
+            }
         })
     }
+}
+
+/// Live parameters that a calibrated body is made for.
+fn changes_the_shape(changes: &[Change]) -> Option<&'static str> {
+    changes.iter().map(|change| change.name).find(|name| *name == "chains.pitch")
 }
 
 fn changes_the_force(changes: &[Change]) -> Option<&'static str> {
@@ -60,6 +71,20 @@ mod tests {
         for name in CHANGE_THE_FORCE {
             assert!(spec(name).is_some_and(|spec| spec.live), "{name}");
         }
+    }
+
+    #[test]
+    fn a_calibrated_body_keeps_the_shape_of_its_chains() {
+        let change = |name| Change { name, value: Value::Double(1.0) };
+        assert_eq!(changes_the_shape(&[change("surface.cutoff"), change("probe.contact_radius")]), None);
+        assert_eq!(
+            changes_the_shape(&[change("surface.cutoff"), change("chains.pitch")]),
+            Some("chains.pitch")
+        );
+        // What decides a chain's shape beside its pitch cannot be set live.
+        assert!(
+            ["chains.ratio", "chains.units"].iter().all(|name| spec(name).is_some_and(|spec| !spec.live))
+        );
     }
 
     #[test]

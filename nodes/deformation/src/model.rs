@@ -3,9 +3,11 @@
 use rhombus_chain::ContactLaw;
 use scene::{Parameters, Scene, SceneError, Value};
 
-/// Whether parameters describe a model; for values that are about to be set.
-pub(crate) fn check(parameters: &Parameters) -> Result<(), SceneError> {
-    Scene::from_parameters(parameters.clone())?.tissue().map(|_| ())
+/// The scene that parameters describe, if they describe a model; for values that are about to be set.
+pub(crate) fn check(parameters: &Parameters) -> Result<Scene, SceneError> {
+    let scene = Scene::from_parameters(parameters.clone())?;
+    scene.tissue()?;
+    Ok(scene)
 }
 
 /// What the parameters without a constant default are when nobody gives them.
