@@ -27,8 +27,8 @@ use crate::{Problem, SceneError};
 const KEY: &str = "body.response";
 const MAGIC: &[u8] = b"RHOMBUS BODY RESPONSE ";
 const VERSION: u32 = 1;
-/// More is no header.
-const LARGEST_HEADER: usize = 1 << 20;
+/// More is no header: brackets alone would keep a YAML parser busy for seconds.
+const LARGEST_HEADER: usize = 1 << 14;
 const NUMBER: usize = size_of::<f32>();
 
 /// What a calibrated body says about itself.
@@ -125,7 +125,7 @@ pub fn mesh_checksum(mesh: &SurfaceMesh) -> u32 {
 /// The file cannot be read, is none, is cut, damaged or newer, or says of itself what it does not hold.
 pub fn read_response(path: &Path) -> Result<ResponseFile, SceneError> {
     let bytes = std::fs::read(path).map_err(|fault| error(path, Problem::Unreadable(fault)))?;
-    parse(&bytes).map_err(|reason| error(path, Problem::Response(reason)))
+    ResponseFile::from_bytes(&bytes).map_err(|reason| error(path, Problem::Response(reason)))
 }
 
 /// Reads the file of a calibrated body for `mesh` and the chains of `law`.
@@ -177,70 +177,78 @@ fn error(path: &Path, problem: Problem) -> SceneError {
     }
 }
 
-/// What the bytes of a file hold.
-fn parse(bytes: &[u8]) -> Result<ResponseFile, String> {
-    let rest = bytes
-        .strip_prefix(MAGIC)
-        .ok_or("not the file of a calibrated body; accepted: what rhombus calibrate --body writes")?;
-    let end = rest
-        .iter()
-        .take(10)
-        .position(|byte| *byte == b'\n')
-        .ok_or("the version is missing; the file is damaged")?;
-    let (version, rest) = (rest.get(..end).unwrap_or_default(), rest.get(end + 1..).unwrap_or_default());
-    let version: u32 = std::str::from_utf8(version)
-        .ok()
-        .and_then(|version| version.parse().ok())
-        .ok_or("the version is no number; the file is damaged")?;
-    if version != VERSION {
-        return Err(format!("version {version}; accepted: {VERSION}"));
-    }
-    let whole = bytes.len().checked_sub(NUMBER).and_then(|end| bytes.split_at_checked(end));
-    let (covered, checksum) = whole.ok_or("the file is cut")?;
-    let found = crc32fast::hash(covered);
-    if checksum != found.to_le_bytes() {
-        return Err(format!(
-            "{} bytes with another checksum than theirs; the file is cut or damaged",
-            bytes.len()
-        ));
-    }
-    let cut = "the file is cut";
-    let rest = rest.get(..rest.len().checked_sub(NUMBER).ok_or(cut)?).ok_or(cut)?;
-    let (length, rest) = rest.split_first_chunk::<4>().ok_or(cut)?;
-    let length = u32::from_le_bytes(*length) as usize;
-    let (header, numbers) = rest.split_at_checked(length).filter(|_| length <= LARGEST_HEADER).ok_or(cut)?;
-    let header: ResponseHeader =
-        serde_yaml::from_slice(header).map_err(|fault| format!("header: {fault}"))?;
-    let (vertices, chains, harmonics, modes) =
-        (header.vertices, header.chains.len(), header.harmonics, header.modes);
-    if chains > MOST_CHAINS || harmonics > MOST_HARMONICS || modes > MOST_MODES || vertices > bytes.len() {
-        return Err(format!(
-            "{vertices} vertices, {chains} chains, {harmonics} harmonics, {modes} modes; accepted: as many vertices as the file \
-             has numbers for, {MOST_CHAINS} chains, {MOST_HARMONICS} harmonics, {MOST_MODES} modes"
-        ));
-    }
-    let mut parts = ResponseParts { chains, harmonics, modes, ..ResponseParts::default() };
-    let counts = [chains * parts.coefficients_per_chain(), modes, 3 * modes, 1].map(|each| each * vertices);
-    let wanted = counts.iter().sum::<usize>() * NUMBER;
-    if numbers.len() != wanted {
-        return Err(format!("{} bytes of numbers, and its header asks for {wanted}", numbers.len()));
-    }
-    let mut all =
-        numbers.chunks_exact(NUMBER).map(|bytes| bytes.try_into().map_or(f32::NAN, f32::from_le_bytes));
-    let mut take = |count: usize| all.by_ref().take(count).collect::<Vec<f32>>();
-    let [coefficients, amplitudes, mode_fields, factors] = counts.map(&mut take);
-    (parts.coefficients, parts.amplitudes, parts.mode_fields) = (coefficients, amplitudes, mode_fields);
-    Ok(ResponseFile { header, parts, factors })
-}
-
 impl ResponseFile {
+    /// What the bytes of a file hold.
+    ///
+    /// # Errors
+    /// Bytes that are no such file, cut, damaged or newer, or that say of themselves what they do not hold.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
+        let rest = bytes
+            .strip_prefix(MAGIC)
+            .ok_or("not the file of a calibrated body; accepted: what rhombus calibrate --body writes")?;
+        let end = rest
+            .iter()
+            .take(10)
+            .position(|byte| *byte == b'\n')
+            .ok_or("the version is missing; the file is damaged")?;
+        let (version, rest) = (rest.get(..end).unwrap_or_default(), rest.get(end + 1..).unwrap_or_default());
+        let version: u32 = std::str::from_utf8(version)
+            .ok()
+            .and_then(|version| version.parse().ok())
+            .ok_or("the version is no number; the file is damaged")?;
+        if version != VERSION {
+            return Err(format!("version {version}; accepted: {VERSION}"));
+        }
+        let whole = bytes.len().checked_sub(NUMBER).and_then(|end| bytes.split_at_checked(end));
+        let (covered, checksum) = whole.ok_or("the file is cut")?;
+        let found = crc32fast::hash(covered);
+        if checksum != found.to_le_bytes() {
+            return Err(format!(
+                "{} bytes with another checksum than theirs; the file is cut or damaged",
+                bytes.len()
+            ));
+        }
+        let cut = "the file is cut";
+        let rest = rest.get(..rest.len().checked_sub(NUMBER).ok_or(cut)?).ok_or(cut)?;
+        let (length, rest) = rest.split_first_chunk::<4>().ok_or(cut)?;
+        let length = u32::from_le_bytes(*length) as usize;
+        let (header, numbers) =
+            rest.split_at_checked(length).filter(|_| length <= LARGEST_HEADER).ok_or(cut)?;
+        let header: ResponseHeader =
+            serde_yaml::from_slice(header).map_err(|fault| format!("header: {fault}"))?;
+        let (vertices, chains, harmonics, modes) =
+            (header.vertices, header.chains.len(), header.harmonics, header.modes);
+        if chains > MOST_CHAINS || harmonics > MOST_HARMONICS || modes > MOST_MODES || vertices > bytes.len()
+        {
+            return Err(format!(
+                "{vertices} vertices, {chains} chains, {harmonics} harmonics, {modes} modes; accepted: as many vertices as the file \
+                 has numbers for, {MOST_CHAINS} chains, {MOST_HARMONICS} harmonics, {MOST_MODES} modes"
+            ));
+        }
+        let mut parts = ResponseParts { chains, harmonics, modes, ..ResponseParts::default() };
+        let counts =
+            [chains * parts.coefficients_per_chain(), modes, 3 * modes, 1].map(|each| each * vertices);
+        let wanted = counts.iter().sum::<usize>() * NUMBER;
+        if numbers.len() != wanted {
+            return Err(format!("{} bytes of numbers, and its header asks for {wanted}", numbers.len()));
+        }
+        let mut all =
+            numbers.chunks_exact(NUMBER).map(|bytes| bytes.try_into().map_or(f32::NAN, f32::from_le_bytes));
+        let mut take = |count: usize| all.by_ref().take(count).collect::<Vec<f32>>();
+        let [coefficients, amplitudes, mode_fields, factors] = counts.map(&mut take);
+        (parts.coefficients, parts.amplitudes, parts.mode_fields) = (coefficients, amplitudes, mode_fields);
+        Ok(Self { header, parts, factors })
+    }
+
     /// The bytes of the file.
     ///
     /// # Errors
-    /// A header that cannot be written as YAML.
+    /// A header that cannot be written as YAML, or that is longer than one that is read.
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
         let header = serde_yaml::to_string(&self.header).map_err(|fault| fault.to_string())?;
-        let length = u32::try_from(header.len()).map_err(|_| "a header of more than 4 GB".to_owned())?;
+        let length = u32::try_from(header.len()).ok().filter(|length| *length as usize <= LARGEST_HEADER);
+        let length =
+            length.ok_or(format!("a header of {} bytes; accepted: up to {LARGEST_HEADER}", header.len()))?;
         let mut bytes = MAGIC.to_vec();
         // Writing to memory does not fail.
         let _ = writeln!(bytes, "{VERSION}");
