@@ -534,10 +534,10 @@ fn a_disk_that_fills_leaves_nothing_half_written() {
         shell.args(["-c", &script]).current_dir(folder.path("."));
         refusal(&mut shell)
     };
-    // The arcs do not fit, then the body.
-    let said = limited(40);
-    assert!(said.contains("out.body.work/arcs.f32: cannot be written"), "{said}");
-    let said = limited(300);
+    // What the programs are given does not fit, then the body.
+    let said = limited(20);
+    assert!(said.contains("rhombus: out.body.work/") && said.contains(": cannot be written"), "{said}");
+    let said = limited(90);
     assert!(
         said.contains("out.svg: cannot be written") || said.contains("out.body: cannot be written"),
         "{said}"

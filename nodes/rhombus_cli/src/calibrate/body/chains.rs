@@ -38,6 +38,8 @@ const SHORTEST: f64 = 0.5;
 const LONGEST: f64 = 0.31;
 /// A chain's shape ends after this many decay lengths: `e^-14 = 1e-6`.
 const REACH: f64 = 14.0;
+/// Whole units that rounding makes a little more than whole stay so.
+const ROUNDING: f64 = 1e-9;
 
 /// The pitch of all chains: the contact radius, so that what has a direction rises over just that (MODEL section 4).
 pub(super) fn pitch_m(contact_radius_m: f64) -> f64 {
@@ -87,8 +89,10 @@ impl Candidate {
         };
         let decays_m: Vec<f64> = (0..chains).map(decay).collect();
         // At least one; a body of 2 m with contacts of 1 mm has some 30 000.
-        let units =
-            decays_m.iter().map(|decay_m| (REACH * decay_m / pitch_m).ceil().max(1.0) as u32).collect();
+        let units = decays_m
+            .iter()
+            .map(|decay_m| (REACH * decay_m / pitch_m - ROUNDING).ceil().max(1.0) as u32)
+            .collect();
         Self { decays_m, units, pitch_m, harmonics }
     }
 
@@ -130,7 +134,7 @@ mod tests {
             assert!((first - 0.0025).abs() < 1e-12 && (last - 0.0809).abs() < 1e-3, "{candidate:?}");
             let ratio = candidate.decays_m[1] / first;
             for (decay, reach) in candidate.decays_m.iter().zip(candidate.reaches_m()) {
-                assert!(reach >= 14.0 * decay && reach < 14.0 * decay + 0.005);
+                assert!(reach > 14.0 * decay - 1e-9 && reach < 14.0 * decay + 0.005);
             }
             assert!(candidate.decays_m.windows(2).all(|pair| (pair[1] / pair[0] / ratio - 1.0).abs() < 1e-9));
         }
