@@ -13,12 +13,13 @@ from pathlib import Path
 
 import numpy as np
 
-import contact
-import elasticity
+import shared  # noqa: F401
+
 import sites
 import volume
-from divide import RIM_SET_BACK, SizeField, divide
-from surface import Disc, Surface, icosphere, read_obj
+from mesh import Mesh
+from sites import base
+from surface import Surface, icosphere, read_obj
 from tables import percent, write_csv
 
 HERE = Path(__file__).parent
@@ -27,29 +28,6 @@ SOLUTIONS = HERE / "solutions"
 YOUNG, POISSON = 10e3, 0.45
 RADII = (0.005, 0.002)
 INCLUSION_FACTOR, INCLUSION_RADIUS, INCLUSION_DEPTH = 10.0, 0.008, 0.012
-
-
-class Mesh:
-    """The liver divided around some sites, every disc's rim set back (see RIM_SET_BACK). `discs`: [site][radius]."""
-
-    def __init__(self, body: Surface, vertices, radii=RADII, cells=8.0, growth=0.5, ratio=1.3, most=np.inf, inner=None):
-        normals = body.vertex_normals()
-        back = 1 - RIM_SET_BACK / cells
-        self.normals = [normals[v] for v in vertices]
-        self.discs = [[Disc(body.vertices[v], normals[v], back * r) for r in radii] for v in vertices]
-        size = SizeField([d for of_site in self.discs for d in of_site], cells, growth=growth, most=most)
-        self.surface, parent = divide(body, size)
-        self.nodes, self.tets = volume.fill(self.surface, inner, ratio)
-        self._corners, self._base = body.faces[parent], body.base()
-
-    def assemble(self, young, poisson) -> contact.Patches:
-        """Model and factor; afterwards `touched[site][radius]` are the nodes of each disc."""
-        model = elasticity.assemble(self.nodes, self.tets, young, poisson)
-        faces6 = contact.surface_nodes(model, self.surface)
-        held = contact.fixed_nodes(faces6, self._corners, self._base)
-        self.touched = [[contact.touched_nodes(model, self.surface, faces6, d) for d in of_site] for of_site in self.discs]
-        self.size = {"elements": len(self.tets), "dofs": 3 * len(model.nodes)}
-        return contact.Patches(model, held, self.normals, [of_site[0] for of_site in self.touched])
 
 
 def rounded(x: np.ndarray) -> np.ndarray:
@@ -72,7 +50,7 @@ def kept(name: str, compute) -> dict:
 
 def solve(body: Surface, vertices, radii, young=YOUNG, poisson=POISSON, **mesh_options) -> dict:
     """Unit depth at all `vertices` at once, for each radius: displacement (R, V, 3) and stiffness (R, sites)."""
-    mesh = Mesh(body, vertices, radii, **mesh_options)
+    mesh = Mesh(body, base(body), vertices, radii, **mesh_options)
     patches = mesh.assemble(young, poisson)
     answers = [patches.press(np.concatenate([of_site[k] for of_site in mesh.touched])) for k in range(len(radii))]
     patches.close()
@@ -92,7 +70,7 @@ def write(name: str, body: Surface, site_vertex, radius, poisson, stiffness, dis
         RESULTS / name,
         vertices=body.vertices.astype("<f8"),
         faces=body.faces.astype("<i4"),
-        fixed=body.base().astype("u1"),
+        fixed=base(body).astype("u1"),
         site_vertex=site_vertex.astype("<i4"),
         point=body.vertices[site_vertex],
         normal=body.vertex_normals()[site_vertex],
@@ -154,7 +132,7 @@ def run_inclusion(body: Surface, count: int) -> None:
     ball = icosphere(centre, INCLUSION_RADIUS)
 
     def one(vertex):
-        mesh = Mesh(body, [vertex], RADII[:1], inner=ball)
+        mesh = Mesh(body, base(body), [vertex], RADII[:1], inner=ball)
         inside = np.linalg.norm(mesh.nodes[mesh.tets].mean(axis=1) - centre, axis=1) < INCLUSION_RADIUS
         found = {"ball_volume": volume.volumes(mesh.nodes, mesh.tets[inside]).sum()}
         for name, factor in (("", INCLUSION_FACTOR), ("_without", 1.0)):
@@ -201,6 +179,19 @@ def make_liver(rhombus: str, vertices: int = 3116) -> Surface:
         path = Path(folder) / "liver.obj"
         subprocess.run([rhombus, "mesh", "make", "liver", "--vertices", str(vertices), "--output", path], check=True)
         return read_obj(path)
+
+
+def write_peers(surface: Surface, path: Path) -> None:
+    """The coarse meshes the compared methods use: nodes, tets, fixed."""
+    nodes, tets = volume.fill(surface, ratio=1.8, dihedral=5.0)
+    np.savez_compressed(
+        path, nodes=nodes.astype("<f8"), tets=tets.astype("<i4"), fixed=base(surface).astype("u1")
+    )
+    angle = volume.smallest_dihedral(nodes, tets)
+    print(
+        f"{path.name}: {len(surface.vertices)} surface and {len(nodes) - len(surface.vertices)} inner nodes, {len(tets)} "
+        f"tetrahedra, smallest dihedral angle {angle.min():.1f} deg (1 % below {np.percentile(angle, 1):.1f} deg)"
+    )
 
 
 # The mesh of the results, and others to judge it by.
@@ -253,6 +244,6 @@ if __name__ == "__main__":
     options = parser.parse_args()
     if options.run == "tets":
         for size in (500, 1000, 3116):
-            volume.write_peers(make_liver(options.rhombus, size), HERE / "tets" / f"liver_{size}.npz")
+            write_peers(make_liver(options.rhombus, size), HERE / "tets" / f"liver_{size}.npz")
     else:
         RUNS[options.run](make_liver(options.rhombus), options.sites)

@@ -8,17 +8,24 @@ of every calibration.
 
 import numpy as np
 
+import shared  # noqa: F401
+
 from surface import Surface
 
 CLEARANCE_M = 0.010
 COUNT, EVERY, FIRST = 48, 6, 4
 
 
+def base(surface: Surface) -> np.ndarray:
+    """Vertices of the flat underside, held fixed: normal z < -0.7. (V,) bool."""
+    return surface.vertex_normals()[:, 2] < -0.7
+
+
 def candidates(surface: Surface) -> np.ndarray:
     """Vertices far enough from the base."""
     points = surface.vertices
-    base = points[surface.base()]
-    clearance = np.array([np.linalg.norm(base - p, axis=1).min() for p in points])
+    fixed = points[base(surface)]
+    clearance = np.array([np.linalg.norm(fixed - p, axis=1).min() for p in points])
     return np.flatnonzero(clearance >= CLEARANCE_M)
 
 

@@ -15,6 +15,8 @@ from scipy.spatial import cKDTree
 from scipy.special import ellipe, ellipk
 from skfem.models.elasticity import linear_elasticity
 
+import shared  # noqa: F401
+
 import contact
 import elasticity
 import volume

@@ -1,5 +1,6 @@
-//! `rhombus calibrate`: parallel chains for a half-space, measured tables, recordings or reference solutions.
+//! `rhombus calibrate`: chains for a body by finite elements, a half-space, measured tables, recordings or reference solutions.
 
+mod body;
 mod command;
 pub mod errors;
 mod fitted;

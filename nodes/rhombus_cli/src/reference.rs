@@ -15,7 +15,7 @@
 //! | `displacement` | S, V, 3 | 1 | m for each m of depth, body frame |
 //! | `held_out` | S | | 1: never used to calibrate, only to judge |
 
-mod arrays;
+pub(crate) mod arrays;
 
 use std::path::Path;
 

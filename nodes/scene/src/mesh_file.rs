@@ -76,6 +76,14 @@ impl MeshFile {
         inspect(&self.vertices, &self.triangles)
     }
 
+    /// Red, green and blue of each vertex, 0 to 1 as written; none where its line has no colour.
+    #[must_use]
+    pub fn colours(&self) -> Vec<Option<[f64; 3]>> {
+        let mut colours = self.colours.clone();
+        colours.resize(self.vertices.len(), None);
+        colours
+    }
+
     /// How light each vertex is painted, 0 (black) to 1 (white): 0.2126 red + 0.7152 green + 0.0722 blue.
     ///
     /// # Errors
@@ -129,7 +137,13 @@ impl MeshFile {
             }
             _ => None,
         };
-        let mut message = format!("{error}; vertices and triangles are counted from 0");
+        let mut message = error.to_string();
+        for vertex in places(error) {
+            if let Some(at) = self.vertices.get(vertex) {
+                message.push_str(&format!("; vertex {vertex} is at {at}"));
+            }
+        }
+        message.push_str("; vertices and triangles are counted from 0");
         let doubles = self.double_vertices();
         if doubles > 0 && matches!(error, MeshError::OpenEdge { .. } | MeshError::Unreferenced { .. }) {
             message.push_str(&format!(
@@ -155,6 +169,20 @@ impl MeshFile {
             .collect();
         positions.sort_unstable();
         positions.windows(2).filter(|pair| pair[0] == pair[1]).count()
+    }
+}
+
+/// Vertices that say where a fault is, for those errors that do not.
+fn places(error: &MeshError) -> Vec<usize> {
+    match error {
+        MeshError::OpenEdge { edge, .. }
+        | MeshError::NonManifoldEdge { edge, .. }
+        | MeshError::InconsistentOrientation { edge, .. } => edge.iter().map(|v| *v as usize).collect(),
+        MeshError::NonManifoldVertex { vertex, .. } | MeshError::Unreferenced { vertex, .. } => vec![*vertex],
+        MeshError::RepeatedCorner { corners, .. } | MeshError::Degenerate { corners, .. } => {
+            vec![corners[0] as usize]
+        }
+        _ => Vec::new(),
     }
 }
 

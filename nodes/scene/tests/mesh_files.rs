@@ -105,6 +105,10 @@ fn surfaces_that_enclose_nothing_name_the_line_of_the_fault() {
         message.contains("the surface is open: ") && message.contains("accepted: a closed surface"),
         "{message}"
     );
+    assert!(
+        message.contains("; vertex 0 is at [0, 0, 0]; vertex 2 is at [0, 0.1, 0]; vertices and triangles"),
+        "{message}"
+    );
 
     let non_manifold = format!("{TETRAHEDRON}v 0.2 0.2 0.2\nf 1 2 5\nf 2 1 5\n");
     let message = error(&non_manifold);

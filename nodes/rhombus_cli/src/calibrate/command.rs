@@ -8,6 +8,7 @@ use rhombus_chain::Formulation;
 use scene::{Parameters, Reader, Scene, Value};
 use serde::Serialize;
 
+use super::body::{self, Asked, BodyOptions};
 use super::errors::median;
 use super::fitted::{Fitted, MOST_CHAINS};
 use super::half_space::{self, Contact, HalfSpace};
@@ -19,47 +20,57 @@ use super::write::{BodyLines, Output, check_free, percent};
 use crate::output;
 use crate::reference::Reference;
 
-/// Fit parallel chains to an elastic half-space, to measurements or to reference solutions; writes a parameter file
+/// Fit chains to a body by finite elements, to a half-space, to measurements or to reference solutions; writes a scene
 ///
 /// The error that was reached stands at the top of the file, with what the data could not tell. Every law that is written is
 /// accepted by the model. Lengths in m, forces in N, pressures in Pa; a table says its units in its header.
+///
+/// With --body a closed surface, a material and where it is held become a body that answers in every direction and at every
+/// place as elasticity says: rhombus calibrate --body organ.obj --young 10000 --poisson 0.45 --fixed facing:0,0,-1,0.7 -o organ.body
+/// Finite elements (second order) press it at --sites places and directional chains are fitted to them; how many, with how many
+/// harmonics and body modes, is decided by the error at sites that a fit did not use. Beside the body's file, organ.body, stand
+/// organ.yaml, a scene that uses it, and organ.svg, the error over the surface. An interrupted run goes on with the same command
+/// (organ.body.work). It takes minutes, and a Python with the packages of tests/reference/requirements.txt:
+/// python3 -m venv venv && venv/bin/pip install -r tests/reference/requirements.txt, then --python venv/bin/python
 #[derive(Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Calibrate {
     #[command(flatten)]
     target: Target,
-    /// Parameter file to write; a regional stiffness map goes beside it
-    #[arg(short, long, value_name = "PARAMS.yaml", value_hint = ValueHint::FilePath)]
+    #[command(flatten)]
+    body_options: BodyOptions,
+    /// Parameter file to write, a regional stiffness map goes beside it; of --body its own file, the parameter file beside it
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: PathBuf,
     /// Replace files that exist
     #[arg(long)]
     force: bool,
-    /// Parallel chains
-    #[arg(long, value_name = "P", default_value_t = 3, value_parser = chains)]
-    chains: usize,
+    /// Parallel chains; 3 by default, of --body the best of 3 to 6
+    #[arg(long, value_name = "P", value_parser = chains)]
+    chains: Option<usize>,
     /// energy or published; energy unless --contact sphere, whose force only the published law can follow
-    #[arg(long, value_name = "LAW", conflicts_with = "reference")]
+    #[arg(long, value_name = "LAW", conflicts_with_all = ["reference", "body"])]
     formulation: Option<Formulation>,
-    /// Poisson's ratio of the half-space
+    /// Poisson's ratio of the half-space (greater than -1, up to 0.5) or of --body (0 up to, but not including, 0.5)
     #[arg(long, value_name = "NU", requires = "young", allow_hyphen_values = true)]
     poisson: Option<f64>,
     /// What presses the half-space, and so which force is fitted: F = 2 E* R d or Hertz
-    #[arg(long, requires = "young", default_value = "flat")]
+    #[arg(long, requires = "young", conflicts_with = "body", default_value = "flat")]
     contact: Contact,
     /// Largest depth of the half-space's force, m; the probe's radius by default
-    #[arg(long, value_name = "M", requires = "young")]
+    #[arg(long, value_name = "M", requires = "young", conflicts_with = "body")]
     depth: Option<f64>,
     /// Radius of the probe, m; of --table 0.005 by default
-    #[arg(long, value_name = "M", conflicts_with_all = ["recording", "reference"])]
+    #[arg(long, value_name = "M", conflicts_with_all = ["recording", "reference", "body"])]
     probe_radius: Option<f64>,
-    /// Radius of the contact of --table, m; the probe's by default
-    #[arg(long, value_name = "M", requires = "table")]
+    /// Radius of the contact, m: of --table the probe's by default, of --body 0.005
+    #[arg(long, value_name = "M", conflicts_with_all = ["recording", "reference"])]
     contact_radius: Option<f64>,
     /// Depth at which the surface of --table was measured, m; the displacement of its first point by default
     #[arg(long, value_name = "M", requires = "table")]
     profile_depth: Option<f64>,
     /// Scene with the body: of the recorded session, or of the references
-    #[arg(long, value_name = "PARAMS.yaml", conflicts_with_all = ["young", "table"], value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "PARAMS.yaml", conflicts_with_all = ["young", "table", "body"], value_hint = ValueHint::FilePath)]
     scene: Option<PathBuf>,
     /// Sub-namespace of the recorded device, where there are several
     #[arg(long, value_name = "NAME", requires = "recording")]
@@ -84,22 +95,31 @@ pub struct Calibrate {
     json: bool,
 }
 
+/// One of them; `--young` is the material of `--body`, and without it a half-space.
 #[derive(Args)]
-#[group(required = true, multiple = false)]
+#[group(required = true, multiple = true)]
 struct Target {
-    /// Elastic half-space: Young's modulus, Pa; with --poisson and --probe-radius
-    #[arg(long, value_name = "E", requires = "poisson", requires = "probe_radius")]
+    /// Body: an OBJ file or a generated one (liver, block, sphere); with --young, --poisson and --fixed
+    #[arg(long, value_name = "MESH", requires = "young", requires = "poisson")]
+    body: Option<String>,
+    /// Young's modulus, Pa: of --body, or of an elastic half-space with --poisson and --probe-radius
+    #[arg(long, value_name = "E", requires = "poisson", allow_hyphen_values = true)]
     young: Option<f64>,
     /// Measured depths and forces, or distances and displacements of the surface, or both: CSV, units in the header
-    #[arg(long, value_name = "DATA.csv", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "DATA.csv", conflicts_with_all = ["body", "young"], value_hint = ValueHint::FilePath)]
     table: Option<PathBuf>,
     /// Recorded poses and measured forces; with --scene
-    #[arg(long, value_name = "BAG", requires = "scene", value_hint = ValueHint::AnyPath)]
+    #[arg(long, value_name = "BAG", requires = "scene", conflicts_with_all = ["body", "young", "table"],
+          value_hint = ValueHint::AnyPath)]
     recording: Option<PathBuf>,
     /// Reference solutions at many sites of a body
-    #[arg(long, value_name = "FILE.npz", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE.npz", conflicts_with_all = ["body", "young", "table", "recording"],
+          value_hint = ValueHint::FilePath)]
     reference: Option<PathBuf>,
 }
+
+/// Parallel chains where none are asked for.
+const CHAINS: usize = 3;
 
 fn chains(text: &str) -> Result<usize, String> {
     let number = text.parse().ok().filter(|chains| (1..=MOST_CHAINS).contains(chains));
@@ -143,25 +163,51 @@ impl Calibrate {
     /// # Errors
     /// What is not accepted of the command line or the data, or why the files cannot be written.
     pub fn run(self) -> anyhow::Result<()> {
+        if let Some(mesh) = &self.target.body {
+            return self.body(mesh);
+        }
         check_free(&self.output, false, self.force)?;
         let found = match &self.target {
             Target { young: Some(young_pa), .. } => self.half_space(*young_pa)?,
             Target { table: Some(path), .. } => self.table(path)?,
             Target { recording: Some(path), .. } => self.recording(path)?,
             Target { reference: Some(path), .. } => self.reference(path)?,
-            _ => bail!("accepted: one of --young, --table, --recording, --reference"),
+            _ => bail!("accepted: one of --body, --young, --table, --recording, --reference"),
         };
         let Found { fitted, source, body, map } = &found;
         // What the model would refuse is not written.
         fitted.tissue()?;
-        let output = Output { fitted, source, body: body.clone(), map: map.as_deref() };
+        let output = Output { fitted, source, body: body.clone(), map: map.as_deref(), beside: Vec::new() };
         let written = output.write(&self.output, self.force)?;
         self.print(written, fitted)
     }
 
+    fn body(&self, mesh: &str) -> anyhow::Result<()> {
+        let asked = Asked {
+            mesh,
+            lines: BodyLines { mesh: self.mesh_seen_from_output(mesh)?, scale: 1.0, response: None },
+            young_pa: self.target.young,
+            poisson: self.poisson,
+            contact_radius_m: self.contact_radius,
+            chains: self.chains,
+            output: &self.output,
+            force: self.force,
+        };
+        let calibrated = body::calibrate(&self.body_options, asked)?;
+        match self.json {
+            true => output::json(&calibrated),
+            false => output::text(&calibrated.to_string()),
+        }
+    }
+
+    fn chains(&self) -> usize {
+        self.chains.unwrap_or(CHAINS)
+    }
+
     fn half_space(&self, young_pa: f64) -> anyhow::Result<Found> {
-        let (Some(poisson), Some(radius_m)) = (self.poisson, self.probe_radius) else {
-            bail!("--young needs --poisson and --probe-radius");
+        let (Some(poisson), Some(radius_m), None) = (self.poisson, self.probe_radius, self.contact_radius)
+        else {
+            bail!("--young without --body needs --poisson and --probe-radius, and no --contact-radius");
         };
         let depth_m = self.depth.unwrap_or(radius_m);
         let target = HalfSpace { young_pa, poisson, radius_m, contact: self.contact, depth_m };
@@ -169,7 +215,7 @@ impl Calibrate {
             Contact::Flat => (Formulation::Energy, "flat punch"),
             Contact::Sphere => (Formulation::Published, "sphere"),
         };
-        let fitted = half_space::fit(&target, self.formulation.unwrap_or(formulation), self.chains)?;
+        let fitted = half_space::fit(&target, self.formulation.unwrap_or(formulation), self.chains())?;
         let source = format!(
             "an elastic half-space of E = {young_pa:?} Pa, nu = {poisson:?}, pressed by a {probe} of radius {radius_m:?} m"
         );
@@ -188,7 +234,7 @@ impl Calibrate {
             probe_radius_m,
             contact_radius_m,
         };
-        let fitted = measured.fit(self.formulation.unwrap_or_default(), self.chains);
+        let fitted = measured.fit(self.formulation.unwrap_or_default(), self.chains());
         let fitted = fitted.with_context(|| path.display().to_string())?;
         let source = format!("the measurements of {}", file_name(path));
         Ok(Found { fitted, source, body: None, map: None })
@@ -216,7 +262,7 @@ impl Calibrate {
             probe_radius_m: scene.probe.radius_m,
             contact_radius_m,
         };
-        let fitted = measured.fit(self.formulation.unwrap_or_default(), self.chains);
+        let fitted = measured.fit(self.formulation.unwrap_or_default(), self.chains());
         let fitted = fitted.with_context(|| path.display().to_string())?;
         Ok(Found { fitted, source, body: Some(body_lines), map: None })
     }
@@ -228,7 +274,7 @@ impl Calibrate {
         reference.check_mesh(body.mesh())?;
         let with_map = self.map.unwrap_or(reference.used().len() >= sites::FEWEST_FOR_MAP);
         check_free(&self.output, with_map, self.force)?;
-        let found = sites::fit_within(&reference, self.chains, with_map, self.reach)?;
+        let found = sites::fit_within(&reference, self.chains(), with_map, self.reach)?;
         let mut source = format!(
             "{} reference solutions of {}; {} more were held out to judge",
             found.used.len(),
@@ -266,7 +312,15 @@ impl Calibrate {
             scene::MeshSource::File(file) => self.seen_from_output(file)?,
         };
         let scale = scene.body.scale;
-        Ok((scene, BodyLines { mesh, scale }))
+        Ok((scene, BodyLines { mesh, scale, response: None }))
+    }
+
+    /// What `body.mesh` of the written file says for `--body`.
+    fn mesh_seen_from_output(&self, mesh: &str) -> anyhow::Result<String> {
+        match mesh.parse::<scene::BodyKind>() {
+            Ok(kind) => Ok(kind.name().to_owned()),
+            Err(_) => self.seen_from_output(Path::new(mesh)),
+        }
     }
 
     /// The name of a file as the written file has to say it: bare when both are in one folder, absolute otherwise.

@@ -141,14 +141,20 @@ pub(super) struct Spring {
 /// published  k_n > k_t tan^2(theta)      k_t = tangential k_n / tan^2(theta)
 /// ```
 pub(super) fn chains(spring: &Spring, members: &[Member]) -> Vec<ChainParameters> {
-    let weights: f64 = members.iter().map(|member| member.weight).sum();
-    members.iter().map(|member| chain(spring, member, member.weight / weights)).collect()
+    let with_units: Vec<(Member, u32)> = members.iter().map(|member| (*member, UNITS)).collect();
+    chains_of(spring, &with_units)
 }
 
-fn chain(spring: &Spring, member: &Member, weight: f64) -> ChainParameters {
-    let n = f64::from(UNITS);
+/// As [`chains`], each with its own number of units.
+pub(super) fn chains_of(spring: &Spring, members: &[(Member, u32)]) -> Vec<ChainParameters> {
+    let weights: f64 = members.iter().map(|(member, _)| member.weight).sum();
+    members.iter().map(|(member, units)| chain(spring, member, *units, member.weight / weights)).collect()
+}
+
+fn chain(spring: &Spring, member: &Member, units: u32, weight: f64) -> ChainParameters {
+    let n = f64::from(units);
     let ratio = libm::exp(-member.extent_m / (n * member.decay_m));
-    let sum = |r: f64| (0..UNITS).rev().fold(0.0, |sum, _| 1.0 + r * sum);
+    let sum = |r: f64| (0..units).rev().fold(0.0, |sum, _| 1.0 + r * sum);
     let (s, normal, tangential) =
         (sum(ratio), sum(ratio * ratio), sum(ratio * ratio * libm::exp(1.0 / GROWTH)));
     let (sine, cosine) = (libm::sin(member.angle_rad), libm::cos(member.angle_rad));
@@ -171,7 +177,7 @@ fn chain(spring: &Spring, member: &Member, weight: f64) -> ChainParameters {
         rod_length_m: spring.range_m / (2.0 * sine * s),
         angle_rad: member.angle_rad,
         ratio,
-        units: UNITS,
+        units,
         normal_stiffness_n_per_m: k_n,
         tangential_stiffness_n_per_m: k_t,
         tangential_growth: GROWTH,

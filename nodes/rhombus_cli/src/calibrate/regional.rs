@@ -51,6 +51,8 @@ pub(super) struct Interpolation {
     weights: DVector<f64>,
     /// Root of the mean squared error of each site's logarithm, predicted from the others.
     pub(super) leave_one_out: f64,
+    /// Each site's logarithm less what the others predict.
+    pub(super) errors: Vec<f64>,
 }
 
 /// Fewest sites that say something about places between them.
@@ -59,6 +61,8 @@ pub(super) const FEWEST_SITES: usize = 8;
 /// Reaches in position, as a share of the largest distance between sites, and in the unit normal.
 const LENGTHS: [f64; 10] = [0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.56, 0.8, 1.1];
 const NORMALS: [f64; 7] = [0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 4.0];
+/// What a factor of a map may be.
+pub(super) const FACTORS: (f64, f64) = (1e-3, 1e3);
 const NOISES: [f64; 5] = [1e-6, 1e-4, 1e-3, 1e-2, 1e-1];
 
 impl Place {
@@ -117,7 +121,8 @@ impl Interpolation {
         let trend = normal_equations.solve(&(weighted.transpose() * y));
         let p = &inverse - &weighted * normal_equations.solve(&weighted.transpose());
         let p_y = &p * y;
-        let squares: f64 = (0..sites.len()).map(|i| (p_y[i] / p[(i, i)]).powi(2)).sum();
+        let errors: Vec<f64> = (0..sites.len()).map(|i| p_y[i] / p[(i, i)]).collect();
+        let squares: f64 = errors.iter().map(|error| error.powi(2)).sum();
         let leave_one_out = (squares / sites.len() as f64).sqrt();
         let weights = inverse * (y - h * &trend);
         leave_one_out.is_finite().then(|| Self {
@@ -126,6 +131,7 @@ impl Interpolation {
             trend,
             weights,
             leave_one_out,
+            errors,
         })
     }
 

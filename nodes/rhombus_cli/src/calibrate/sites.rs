@@ -10,7 +10,7 @@ use rhombus_chain::{Body, ChainParameters, Formulation, StiffnessMap, SurfaceMes
 
 use super::errors::{self, NEAR_M, SiteError, Which, median, one_contact};
 use super::fitted::{self, FitError, Fitted, Reached, Spring};
-use super::regional::{FEWEST_SITES, Interpolation, Place};
+use super::regional::{FACTORS, FEWEST_SITES, Interpolation, Place};
 use super::rings::Rings;
 use super::shape::ShapeTask;
 use crate::reference::{Reference, ReferenceContact};
@@ -42,9 +42,6 @@ const NEAR_MM: f64 = 1e3 * NEAR_M;
 
 /// Fewest sites that say something about the places between them.
 pub const FEWEST_FOR_MAP: usize = FEWEST_SITES;
-
-/// What a factor of a map may be.
-const FACTORS: (f64, f64) = (1e-3, 1e3);
 
 /// Fits `chains` parallel chains to the sites that are not held out, and with `with_map` the regional stiffness.
 ///

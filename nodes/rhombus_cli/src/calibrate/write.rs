@@ -23,14 +23,21 @@ pub(super) struct Output<'a> {
     pub(super) body: Option<BodyLines>,
     /// One factor for each vertex of that body.
     pub(super) map: Option<&'a [f64]>,
+    /// Files that are written before the parameter file, which names them.
+    pub(super) beside: Vec<(PathBuf, Vec<u8>)>,
 }
 
-/// `body.mesh` and `body.scale`.
+/// `body.mesh`, `body.scale` and `body.response`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct BodyLines {
     pub(super) mesh: String,
     pub(super) scale: f64,
+    /// File name of a calibrated body.
+    pub(super) response: Option<String>,
 }
+
+/// How the names of unfinished files begin.
+pub(super) const HIDDEN: &str = ".rhombus-calibrate-";
 
 /// Where the map of a parameter file goes: beside it.
 pub(super) fn map_path(path: &Path) -> PathBuf {
@@ -44,7 +51,12 @@ pub(super) fn check_free(path: &Path, with_map: bool, force: bool) -> anyhow::Re
         bail!("--output {}: accepted: the name of a file", path.display());
     }
     let map = with_map.then(|| map_path(path));
-    for path in std::iter::once(path.to_owned()).chain(map) {
+    check_free_all(std::iter::once(path.to_owned()).chain(map), force)
+}
+
+/// As [`check_free`], for any files.
+pub(super) fn check_free_all(paths: impl IntoIterator<Item = PathBuf>, force: bool) -> anyhow::Result<()> {
+    for path in paths {
         if path.symlink_metadata().is_ok() {
             if !force {
                 bail!("{} exists; --force replaces it", path.display());
@@ -62,7 +74,8 @@ impl Output<'_> {
     pub(super) fn write(&self, path: &Path, force: bool) -> anyhow::Result<Vec<PathBuf>> {
         check_free(path, self.map.is_some(), force)?;
         let text = self.text(path);
-        let mut files = Vec::new();
+        let mut files: Vec<(PathBuf, Vec<u8>)> = self.beside.clone();
+        check_free_all(files.iter().map(|(path, _)| path.clone()), force)?;
         if let Some(factors) = self.map {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let comment = format!(
@@ -70,20 +83,18 @@ impl Output<'_> {
                 self.source
             );
             let map = StiffnessFile { comment: &comment, factors };
-            files.push((map_path(path), map.to_string()));
+            files.push((map_path(path), map.to_string().into_bytes()));
         }
-        files.push((path.to_owned(), text));
+        files.push((path.to_owned(), text.into_bytes()));
         let mut finished = Vec::new();
-        for (path, text) in files {
-            finished.push((unfinished(&path, &text)?, path));
+        for (path, bytes) in files {
+            finished.push((unfinished(&path, &bytes)?, path));
         }
         // The parameter file comes last: it is there only when all it names is.
         finished
             .into_iter()
             .map(|(file, path)| {
-                let put = if force { file.persist(&path) } else { file.persist_noclobber(&path) };
-                put.map_err(|error| error.error)
-                    .with_context(|| format!("{}: cannot be written", path.display()))?;
+                name(file, &path, force)?;
                 Ok(path)
             })
             .collect()
@@ -113,6 +124,9 @@ impl Output<'_> {
             lines.push((2, "body:".to_owned()));
             lines.push((3, format!("mesh: {}", quoted(&body.mesh))));
             lines.push((3, format!("scale: {}", number(body.scale))));
+            if let Some(response) = &body.response {
+                lines.push((3, format!("response: {}", quoted(response))));
+            }
             if self.map.is_some() {
                 let map = map_path(path);
                 let name = map.file_name().unwrap_or_default().to_string_lossy();
@@ -152,15 +166,31 @@ impl Output<'_> {
     }
 }
 
-/// The text under a hidden name in the folder of `path`, on the disk; it goes away when it is dropped.
-fn unfinished(path: &Path, text: &str) -> anyhow::Result<NamedTempFile> {
+/// Writes a file that is there whole or not at all.
+///
+/// # Errors
+/// It cannot be written, or exists and is not to be replaced.
+pub(super) fn put(path: &Path, bytes: &[u8], replace: bool) -> anyhow::Result<()> {
+    name(unfinished(path, bytes)?, path, replace)
+}
+
+/// Gives a finished file its name.
+fn name(file: NamedTempFile, path: &Path, replace: bool) -> anyhow::Result<()> {
+    let put = if replace { file.persist(path) } else { file.persist_noclobber(path) };
+    put.map(drop)
+        .map_err(|error| error.error)
+        .with_context(|| format!("{}: cannot be written", path.display()))
+}
+
+/// The bytes under a hidden name in the folder of `path`, on the disk; it goes away when it is dropped.
+fn unfinished(path: &Path, bytes: &[u8]) -> anyhow::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let write = || {
         let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-        let mut file = builder.prefix(".rhombus-calibrate-").tempfile_in(folder)?;
-        file.write_all(text.as_bytes())?;
+        let mut file = builder.prefix(HIDDEN).tempfile_in(folder)?;
+        file.write_all(bytes)?;
         file.as_file().sync_all()?;
         Ok::<_, std::io::Error>(file)
     };

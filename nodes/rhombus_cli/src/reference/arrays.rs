@@ -10,19 +10,19 @@ use zip::ZipArchive;
 use super::ReferenceError;
 
 /// An opened archive.
-pub(super) struct Arrays {
+pub(crate) struct Arrays {
     file: String,
     archive: ZipArchive<BufReader<File>>,
 }
 
 /// One array, its last index fastest.
-pub(super) struct Array {
-    pub(super) shape: Vec<usize>,
-    pub(super) values: Vec<f64>,
+pub(crate) struct Array {
+    pub(crate) shape: Vec<usize>,
+    pub(crate) values: Vec<f64>,
 }
 
 impl Arrays {
-    pub(super) fn open(path: &Path) -> Result<Self, ReferenceError> {
+    pub(crate) fn open(path: &Path) -> Result<Self, ReferenceError> {
         let file = path.display().to_string();
         let error = |problem: String| ReferenceError { file: file.clone(), array: None, problem };
         let opened = File::open(path).map_err(|cause| error(format!("cannot be read: {cause}")))?;
@@ -31,12 +31,12 @@ impl Arrays {
         Ok(Self { file, archive })
     }
 
-    pub(super) fn error(&self, array: &'static str, problem: impl Into<String>) -> ReferenceError {
+    pub(crate) fn error(&self, array: &'static str, problem: impl Into<String>) -> ReferenceError {
         ReferenceError { file: self.file.clone(), array: Some(array), problem: problem.into() }
     }
 
     /// Reads an array of numbers or booleans. Every integer a reference has is exact as f64.
-    pub(super) fn read(&mut self, name: &'static str) -> Result<Array, ReferenceError> {
+    pub(crate) fn read(&mut self, name: &'static str) -> Result<Array, ReferenceError> {
         let bytes = self.bytes(name)?;
         let npy = NpyFile::new(bytes.as_slice()).map_err(|cause| self.error(name, cause.to_string()))?;
         let DType::Plain(kind) = npy.dtype() else {
@@ -83,7 +83,7 @@ impl Arrays {
     }
 
     /// As [`read`](Self::read), with a shape that has to be `expected`; 0 there accepts any length.
-    pub(super) fn shaped(
+    pub(crate) fn shaped(
         &mut self,
         name: &'static str,
         expected: &[usize],

@@ -65,6 +65,7 @@ impl Folder {
     }
 
     /// Stderr of a run that must be refused without a word on stdout.
+    #[allow(dead_code, reason = "not every test file needs it")]
     pub(crate) fn refusal(&self, arguments: &[&str]) -> String {
         let run = self.run(arguments);
         assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{arguments:?}: {}", run.stderr);

@@ -1,7 +1,5 @@
 """Tetrahedra inside a triangle surface (TetGen), the surface kept as it is."""
 
-from pathlib import Path
-
 import numpy as np
 import tetgen
 
@@ -57,16 +55,3 @@ def smallest_dihedral(nodes: np.ndarray, tets: np.ndarray) -> np.ndarray:
         normals.append(n / np.linalg.norm(n, axis=1)[:, None])
     cosines = [-(normals[i] * normals[j]).sum(1) for i in range(4) for j in range(i)]
     return np.degrees(np.arccos(np.clip(np.max(cosines, axis=0), -1, 1)))
-
-
-def write_peers(surface: Surface, path: Path) -> None:
-    """The coarse meshes the compared methods use: nodes, tets, fixed."""
-    nodes, tets = fill(surface, ratio=1.8, dihedral=5.0)
-    np.savez_compressed(
-        path, nodes=nodes.astype("<f8"), tets=tets.astype("<i4"), fixed=surface.base().astype("u1")
-    )
-    angle = smallest_dihedral(nodes, tets)
-    print(
-        f"{path.name}: {len(surface.vertices)} surface and {len(nodes) - len(surface.vertices)} inner nodes, {len(tets)} "
-        f"tetrahedra, smallest dihedral angle {angle.min():.1f} deg (1 % below {np.percentile(angle, 1):.1f} deg)"
-    )

@@ -61,6 +61,17 @@ class Patches:
     def press(self, touched: np.ndarray, depth: np.ndarray | None = None) -> Answer:
         """u . normal = -depth (1 if not given) on the touched nodes, tangentially free; the patches' other nodes carry no
         force."""
+        forces = self._forces(touched, depth)
+        return Answer(self._factor.displacement(forces), self._stiffness(forces))
+
+    def press_each(self, touched: list[np.ndarray]) -> list[Answer]:
+        """Unit depth, one set of touched nodes at a time."""
+        forces = np.array([self._forces(nodes) for nodes in touched])
+        moved = self._factor.displacements(forces)
+        return [Answer(u, self._stiffness(f)) for u, f in zip(moved, forces)]
+
+    def _forces(self, touched: np.ndarray, depth: np.ndarray | None = None) -> np.ndarray:
+        """What pushes the body along the normals of the patches' nodes, N."""
         order = np.argsort(touched)
         on = np.isin(self._nodes, touched)
         if on.sum() != len(touched):
@@ -76,9 +87,11 @@ class Patches:
             )
         forces = np.zeros(len(on))
         forces[on] = -condensed @ depths[on]
-        # `forces` push the body along the normal; the hand feels the opposite, and positive pushes it out.
-        stiffness = -np.bincount(self._patch, weights=forces)
-        return Answer(self._factor.displacement(forces), stiffness)
+        return forces
+
+    def _stiffness(self, forces: np.ndarray) -> np.ndarray:
+        # The hand feels the opposite of what pushes the body, and positive pushes it out.
+        return -np.bincount(self._patch, weights=forces)
 
     def under(self, forces: np.ndarray) -> np.ndarray:
         """Displacement (N, 3) under given forces (N, along the normals) on the nodes of the patches."""

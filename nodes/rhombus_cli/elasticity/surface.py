@@ -32,10 +32,6 @@ class Surface:
             np.add.at(normals, self.faces[:, k], cross * (angle / length)[:, None])
         return normals / np.linalg.norm(normals, axis=1)[:, None]
 
-    def base(self) -> np.ndarray:
-        """Vertices of the flat underside, held fixed: normal z < -0.7. (V,) bool."""
-        return self.vertex_normals()[:, 2] < -0.7
-
 
 def read_obj(path: Path) -> Surface:
     """Vertices and triangles of a Wavefront OBJ file, in the order of the file."""

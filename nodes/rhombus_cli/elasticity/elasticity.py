@@ -121,12 +121,16 @@ class Factor:
 
     def displacement(self, forces: np.ndarray) -> np.ndarray:
         """Displacement (N, 3) of all nodes under forces (N) along the first component of the kept nodes."""
-        right = np.zeros(self._matrix.shape[0])
-        right[self._dofs] = forces
+        return self.displacements(forces[None])[0]
+
+    def displacements(self, forces: np.ndarray) -> np.ndarray:
+        """The same of several cases at once: (cases, N, 3) under forces (cases, kept nodes)."""
+        right = np.zeros((self._matrix.shape[0], len(forces)), order="F")
+        right[self._dofs] = forces.T
         self._solver.set_phase(33)
-        u = np.zeros((self._count, 3))
-        u[self._free] = self._solver._call_pardiso(self._matrix, right).reshape(-1, 3)
-        u[self._turned] = np.einsum("nij,ni->nj", self._frames, u[self._turned])
+        u = np.zeros((len(forces), self._count, 3))
+        u[:, self._free] = self._solver._call_pardiso(self._matrix, right).T.reshape(len(forces), -1, 3)
+        u[:, self._turned] = np.einsum("nij,cni->cnj", self._frames, u[:, self._turned])
         return u
 
     def close(self) -> None:
