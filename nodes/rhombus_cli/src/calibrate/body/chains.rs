@@ -117,7 +117,9 @@ impl Candidate {
                 (member, *units)
             })
             .collect();
-        fitted::chains_of(&spring, &members)
+        let chains = fitted::chains_of(&spring, &members);
+        // The very number, not its quotient.
+        chains.into_iter().map(|chain| ChainParameters { pitch_m: self.pitch_m, ..chain }).collect()
     }
 }
 
@@ -151,7 +153,7 @@ mod tests {
             {
                 assert!((-chain.pitch_m / chain.ratio.ln() / decay_m - 1.0).abs() < 1e-9);
                 assert_eq!(chain.units, *units);
-                assert!((chain.pitch_m - candidate.pitch_m).abs() < 1e-15);
+                assert_eq!(chain.pitch_m, candidate.pitch_m);
             }
         }
     }
