@@ -226,3 +226,57 @@ def test_a_program_says_in_a_sentence_what_it_cannot_read(work):
     np.savez(work / "press_0.npz", site=np.arange(59), stiffness=np.ones(59), displacement=np.zeros((59, 500, 3)))
     status, said = run("fit.py", work)
     assert status == 2 and "no press at vertex" in said[-1]["error"] and not (work / "fit.npz").exists()
+
+
+@pytest.fixture
+def held_ball(tmp_path):
+    """A folder of a ball of elastic material, held below; sites: the top, and a vertex on the rim of what is held."""
+    pytest.importorskip("pypardiso")
+    pytest.importorskip("tetgen")
+    pytest.importorskip("skfem")
+    from surface import icosphere
+
+    body = icosphere(np.zeros(3), RADIUS, level=3)
+    held = body.vertices[:, 2] < -0.6 * RADIUS
+    height = body.vertices[:, 2]
+    sites = [int(height.argmax()), int(np.where(held, np.inf, height).argmin())]
+    job = {"format": 1, "vertices": len(held), "faces": len(body.faces), "sites": sites, "batches": [[0]], "young_pa": 1e4}
+    job |= {"poisson": 0.45, "second": None, "contact_radius_m": 0.005}
+    body.vertices.astype("<f8").tofile(tmp_path / "vertices.f64")
+    body.vertex_normals().astype("<f8").tofile(tmp_path / "normals.f64")
+    body.faces.astype("<i4").tofile(tmp_path / "faces.i32")
+    held.astype("u1").tofile(tmp_path / "held.u8")
+    return tmp_path, job, held
+
+
+def press(work, job):
+    (work / "job.json").write_text(json.dumps(job))
+    status, said = run("press.py", work)
+    assert status == 0 and said[-1] == {"done": len(job["batches"]), "of": len(job["batches"])}
+    with np.load(work / "press_0.npz") as file:
+        return dict(file)
+
+
+def test_a_press_sinks_by_one_where_it_is_and_moves_nothing_that_is_held(held_ball):
+    work, job, held = held_ball
+    found = press(work, job)
+    assert found["displacement"][0, job["sites"][0], 2] == pytest.approx(-1, abs=1e-5)
+    assert (found["displacement"][0, held] == 0).all() and np.abs(found["displacement"]).max() < 1.5
+    before = (work / "press_0.npz").stat().st_mtime_ns
+    press(work, job)
+    assert (work / "press_0.npz").stat().st_mtime_ns == before, "what is there stays"
+    # The problem is linear in Young's modulus: twice as stiff everywhere, twice the force, the same field.
+    (work / "press_0.npz").unlink()
+    job["second"] = {"young_pa": 2e4, "region": {"plane": [0, 0, 1, 1]}}
+    stiff = press(work, job)
+    assert stiff["stiffness"][0] == pytest.approx(2 * found["stiffness"][0], rel=1e-9)
+    assert np.abs(stiff["displacement"] - found["displacement"]).max() < 1e-6
+
+
+def test_a_disc_on_what_is_held_is_refused_with_its_vertex(held_ball):
+    work, job, _ = held_ball
+    job["contact_radius_m"], job["batches"] = 0.02, [[0], [1]]
+    (work / "job.json").write_text(json.dumps(job))
+    status, said = run("press.py", work)
+    assert status == 2 and said[-1]["vertex"] == job["sites"][1] and "held" in said[-1]["error"]
+    assert (work / "press_0.npz").exists() and not (work / "press_1.npz").exists()

@@ -58,14 +58,14 @@ class Contact:
     def fields(self, chains: Chains, vertices, at: int, normal: np.ndarray, arcs: np.ndarray) -> np.ndarray:
         """(3 V, P (2 + 6 H)): displacement of all vertices (V, 3) for each coefficient when the surface is pressed by one
         unit at vertex `at`, whose distances to all vertices are `arcs` (V,)."""
-        (first, second), waves = tangent_frames(normal[None])[0], []
+        first, second = tangent_frames(normal[None])[0]
         offset = vertices - vertices[at]
         in_plane = offset - (offset @ normal)[:, None] * normal
         scale = np.maximum(np.linalg.norm(in_plane, axis=1), AWAY_FADES_BELOW * np.linalg.norm(offset, axis=1))
         away = in_plane / np.where(scale > 0, scale, 1.0)[:, None]
         around = np.cross(normal, away)
         cosine, sine = away @ first, away @ second
-        waves = np.array([cosine, sine, cosine**2 - sine**2, 2 * cosine * sine][: 2 * chains.harmonics]).reshape(-1, len(vertices))
+        waves = np.array([cosine, sine, cosine**2 - sine**2, 2 * cosine * sine])[: 2 * chains.harmonics]
         rise, one = self.rise(arcs), np.ones((1, len(vertices)))
         directed = rise * np.concatenate([waves, one, waves, waves])
         vectors = [np.broadcast_to(normal, away.shape)] * len(waves) + [away] * (1 + len(waves)) + [around] * len(waves)

@@ -18,8 +18,8 @@ from modes import Likeness, Modes
 from work import Refused, Work, run, save
 
 # How smooth the fields may be, lengths relative to the diagonal of the body's box. The chains' are looked for from the middle on,
-# with the candidate of middle size for all of them: the errors hardly depend on it (on the liver twice or half the best length
-# costs 2 to 6 % of the score, three times or a third of the noise 2 %). Those of the modes cost little and are all tried.
+# with the candidate of middle size for all of them: the errors hardly depend on it (on the liver half or twice the length, or a third
+# or three times the noise, changes the score by up to 7 %). Those of the modes cost little and are all tried.
 LENGTHS, NOISES = (0.15, 0.3, 0.6), (0.002, 0.006, 0.02)
 MODE_LENGTHS, MODE_NOISES = (0.1, 0.2, 0.4), (0.001, 0.01, 0.1)
 # A smaller response is taken when its score is within this factor of the best.

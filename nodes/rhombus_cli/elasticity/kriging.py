@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 # The two sides of a thin edge are near in space but answer differently: places whose normals are opposite have exp(-1/2)
-# of the likeness that their distance alone would give them. Kriging errors hardly depend on it.
+# of the likeness that their distance alone would give them.
 UNLIKE_NORMALS = 2.0
 
 

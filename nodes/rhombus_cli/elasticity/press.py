@@ -16,8 +16,8 @@ from mesh import Mesh, SiteError
 from surface import Surface
 from work import Refused, Work, run, save
 
-# Coarser than the reference solutions' (see the tables there): half a percent of the stiffness, a few percent at most of the
-# displacement next to the rim, for a third of the time. The second where TetGen or the solver cannot do with the first.
+# Coarser than the reference solutions': at 40 of their sites on the liver the displacement differs by 1.7 % (median; at most 4.7 %), the
+# stiffness by 0.6 % (1.2 %). The second where TetGen or the solver cannot do with the first.
 MESHES = ({"cells": 4.0, "growth": 0.6, "ratio": 1.4}, {"cells": 5.0, "growth": 0.5, "ratio": 1.6})
 MEMORY = 12 << 30
 # What dividing a surface, TetGen and the solver raise when they fail.
