@@ -1,7 +1,7 @@
 //! `rhombus evaluate`: the contact law and the surface around one contact, for one depth or one force.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::{Args, ValueHint};
@@ -94,7 +94,7 @@ impl Evaluate {
             At { depth, .. } => depth.unwrap_or(0.0),
         };
         let mut evaluation = evaluate(&law, &scene.surface_parameters(), depth_m, &self.profile)?;
-        evaluation.stiffness_map = scene.body.stiffness_map;
+        evaluation.stiffness_map = scene.body.stiffness_file().map(Path::to_owned);
         match self.json {
             true => output::json(&evaluation),
             false => output::text(&evaluation.to_string()),

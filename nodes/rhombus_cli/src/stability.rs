@@ -166,7 +166,7 @@ impl Report {
         let analysis = LawAnalysis::new(law);
         let largest_force_n = scene.device.max_force_n;
         let motion_scale = scene.device.motion_scale;
-        let map = match &scene.body.stiffness_map {
+        let map = match scene.body.stiffness_file() {
             Some(_) => scene.load_body()?.body.stiffness().map(StiffnessMap::range),
             None => None,
         };

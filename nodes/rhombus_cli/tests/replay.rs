@@ -81,7 +81,7 @@ fn every_recording_is_answered_with_the_committed_bits() {
         .filter(|line| !line.starts_with('#'))
         .map(|line| line.split_whitespace().collect())
         .collect();
-    assert_eq!(rows.len(), 6);
+    assert_eq!(rows.len(), 8);
     for row in rows {
         let [name, params, digest] = row[..] else { panic!("{row:?}") };
         let output = rhombus(&["replay", &bag(name), "--params", params, "--json"]);

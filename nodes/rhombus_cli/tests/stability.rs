@@ -42,6 +42,18 @@ fn a_pull_asks_more_of_a_device_than_a_press_under_the_energy_law_only() {
 }
 
 #[test]
+fn a_calibrated_body_asks_for_what_its_stiffest_place_needs() {
+    let folder = energy();
+    let organ = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/organ.yaml");
+    let stiffness = |more: &[&str]| {
+        let report = folder.json(&[&["stability", organ, "--json"], more].concat());
+        number(&report["pressed_only"]["stiffness_n_per_m"])
+    };
+    let (calibrated, even) = (stiffness(&[]), stiffness(&["--set", "body.response=\"\""]));
+    assert!((1.3..1.6).contains(&(calibrated / even)), "{calibrated} {even} N/m");
+}
+
+#[test]
 fn the_rate_the_delay_and_the_device_decide() {
     let folder = energy();
     let passive = |more: &[&str]| {

@@ -161,7 +161,7 @@ impl Scene {
             }
             (None, Some(map)) => {
                 let (low, high) = map.range();
-                let what = format!("of the calibrated body: {low} to {high} times the contact law");
+                let what = format!("of the calibrated body: {low:.3} to {high:.3} times the contact law");
                 plan.build("stiffness map", Node::Deformation, what, Some(map.memory_bytes()));
             }
             _ => plan.leave_out("stiffness map", "body.stiffness_map is \"\""),
@@ -170,9 +170,9 @@ impl Scene {
             (Some(path), Some(response)) => {
                 let (harmonics, modes) = (response.harmonics(), response.modes());
                 let what = format!("{}: {harmonics} harmonics, {modes} body modes", path.display());
-                plan.build("calibrated response", Node::Deformation, what, Some(response.memory_bytes()));
+                plan.build("response", Node::Deformation, what, Some(response.memory_bytes()));
             }
-            _ => plan.leave_out("calibrated response", "body.response is \"\""),
+            _ => plan.leave_out("response", "body.response is \"\""),
         }
         let index_bytes = body.index().memory_bytes();
         plan.build(

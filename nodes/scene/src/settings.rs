@@ -1,6 +1,6 @@
 //! The typed groups of a scene, one for each group of parameters.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use rhombus_chain::{Pose, Spread};
 
@@ -21,6 +21,14 @@ pub struct BodySettings {
     pub frame_id: String,
     /// Pose of the body in the scene.
     pub scene_from_body: Pose,
+}
+
+impl BodySettings {
+    /// The file that has a factor on the contact law for each vertex: a map or a calibrated body.
+    #[must_use]
+    pub fn stiffness_file(&self) -> Option<&Path> {
+        self.stiffness_map.as_deref().or(self.response.as_deref())
+    }
 }
 
 /// Where a rest surface comes from.

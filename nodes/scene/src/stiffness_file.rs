@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rhombus_chain::{StiffnessMap, StiffnessMapError, SurfaceMesh};
 
-use crate::{Problem, SceneError};
+use crate::{BodySettings, Problem, SceneError, read_response};
 
 const KEY: &str = "body.stiffness_map";
 const HEADER: &str = "factor";
@@ -27,12 +27,17 @@ pub fn read_stiffness_map(path: &Path, mesh: &SurfaceMesh) -> Result<StiffnessMa
     })
 }
 
-/// The numbers of such a file, for a picture: neither their range nor their count is checked.
+/// The factors of a body's stiffness map or of its calibrated response, for a picture: neither their range nor their count is
+/// checked. Empty where the law is the same everywhere.
 ///
 /// # Errors
-/// The file cannot be read, has another header, or a line that is no number; the error names the line.
-pub fn read_stiffness_factors(path: &Path) -> Result<Vec<f64>, SceneError> {
-    Ok(factors_and_lines(path)?.0)
+/// The file cannot be read or is not what it should be; the error names the line of a map.
+pub fn read_stiffness_factors(body: &BodySettings) -> Result<Vec<f64>, SceneError> {
+    match (&body.stiffness_map, &body.response) {
+        (Some(path), _) => Ok(factors_and_lines(path)?.0),
+        (None, Some(path)) => Ok(read_response(path)?.factors.into_iter().map(f64::from).collect()),
+        (None, None) => Ok(Vec::new()),
+    }
 }
 
 fn error(path: &Path, line: Option<usize>, problem: Problem) -> SceneError {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use rhombus_chain::{ContactShape, Formulation, SurfacePoint};
-use scene::{Parameters, Reader, Scene};
+use scene::{Parameters, Reader, Scene, read_response};
 
 fn config() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config")
@@ -37,7 +37,7 @@ fn every_file_is_a_scene_with_a_contact_law_and_a_body_of_likely_size() {
 }
 
 #[test]
-fn the_default_scene_is_a_soft_liver_of_3116_vertices() {
+fn the_liver_is_soft_and_has_3116_vertices() {
     let scene = read("liver.yaml");
     let law = scene.law().expect("a law");
     assert!((100.0..300.0).contains(&law.rest_stiffness_n_per_m()), "{}", law.rest_stiffness_n_per_m());
@@ -48,6 +48,23 @@ fn the_default_scene_is_a_soft_liver_of_3116_vertices() {
     assert!((0.030..0.040).contains(&shape.reach_m()), "{} m reach at 5 mm", shape.reach_m());
     let body = scene.load_body().expect("a body").body;
     assert_eq!((body.mesh().vertices().len(), body.mesh().triangles().len()), (3116, 6228));
+}
+
+#[test]
+fn the_default_scene_is_the_same_liver_calibrated_within_what_its_file_says() {
+    let (organ, liver) = (read("organ.yaml"), read("liver.yaml"));
+    assert_eq!(organ.body.mesh, liver.body.mesh);
+    let path = organ.body.response.as_deref().expect("a calibrated body");
+    assert!(std::fs::metadata(path).expect("a file").len() < 8_000_000);
+    let header = read_response(path).expect("whole").header;
+    let judged = header.errors.iter().find(|errors| errors.region == "reference sites").expect("judged");
+    assert!(judged.field[0] <= 0.10 && judged.field[1] <= 0.27, "{judged:?}");
+    assert!(judged.near_field[0] <= 0.08, "{judged:?}");
+    assert!(judged.force[0] <= 0.025 && judged.force[1] <= 0.10, "{judged:?}");
+    let body = organ.load_body().expect("a body").body;
+    let (low, high) = body.stiffness().expect("factors").range();
+    assert!(0.5 < low && low < 1.0 && 1.0 < high && high < 2.0, "{low} to {high}");
+    assert!(body.response().is_some_and(|response| response.harmonics() > 0 && response.modes() > 0));
 }
 
 #[test]

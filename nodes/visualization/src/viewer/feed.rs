@@ -1,12 +1,11 @@
 //! From what is heard to what pages show: mesh, surface and devices, in the body's frame, encoded once for all pages.
 
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use node_kit::{Log, NodeKit, StartError, Throttle, TransformListener, convert};
 use rhombus_chain::{FrameTree, Pose};
-use scene::{Scene, read_stiffness_factors};
+use scene::{BodySettings, Scene, read_stiffness_factors};
 
 use super::health::Driver;
 use super::link::{Numbered, Shown};
@@ -26,7 +25,7 @@ pub(crate) struct Feed {
     frames: FrameTree,
     transforms: TransformListener,
     body_frame: String,
-    stiffness_map: Option<PathBuf>,
+    body: BodySettings,
     mesh: Sequence,
     surface: Sequence,
     state: Sequence,
@@ -55,7 +54,7 @@ impl Feed {
             frames: scene.frames(kit.namespace()),
             transforms: TransformListener::new(kit)?,
             body_frame: kit.frame_id(&scene.body.frame_id),
-            stiffness_map: scene.body.stiffness_map.clone(),
+            body: scene.body.clone(),
             mesh: Sequence::default(),
             surface: Sequence::default(),
             state: Sequence::default(),
@@ -169,8 +168,8 @@ impl Feed {
     }
 
     fn stiffness_factors(&mut self, vertices: usize) -> Option<Vec<f32>> {
-        let path = self.stiffness_map.as_ref()?;
-        let problem = match read_stiffness_factors(path) {
+        let problem = match read_stiffness_factors(&self.body) {
+            Ok(factors) if factors.is_empty() => return None,
             Ok(factors)
                 if factors.len() == vertices
                     && factors.iter().all(|factor| factor.is_finite() && *factor > 0.0) =>
