@@ -120,7 +120,7 @@ def test_a_wrong_device_or_setting_is_one_line_and_starts_nothing(arguments, sai
 
 @pytest.fixture
 def scene(tmp_path):
-    """A copy of the default scene: whoever has it on the command line belongs to the test."""
+    """A copy of a scene: whoever has it on the command line belongs to the test."""
     return shutil.copy(REPOSITORY / "config" / "liver.yaml", tmp_path / "scene.yaml")
 
 

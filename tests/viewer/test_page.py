@@ -40,7 +40,7 @@ def ros():
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    """The default scene with a pointer device, and its viewer's address."""
+    """The liver with a pointer device, and its viewer's address."""
     folder = tmp_path_factory.mktemp("session")
     values = yaml.safe_load((REPOSITORY / "config" / "liver.yaml").read_text())["/**"]["ros__parameters"]
     flat = dict(flattened(values)) | {"device.backend": "pointer", "viewer.port": 0}
