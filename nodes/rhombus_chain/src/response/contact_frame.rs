@@ -33,7 +33,8 @@ impl ContactFrame {
     /// the contact.
     #[inline(always)]
     pub(crate) fn direction(&self, at: &Axes) -> [Vec4; 2] {
-        let offset = [0, 1, 2].map(|axis| at[axis] - self.position[axis]);
+        let position = &self.position;
+        let offset = [at[0] - position[0], at[1] - position[1], at[2] - position[2]];
         let (x, y) = (dot(&offset, &self.first), dot(&offset, &self.second));
         let squared = (x * x + y * y).max(dot(&offset, &offset) * AWAY_FADES_BELOW_SQUARED);
         let scale = Vec4::from_array(squared.to_array().map(f32::sqrt));
@@ -45,7 +46,9 @@ impl ContactFrame {
     /// The vectors that have these parts along the normal, the first and the second vector of the frame.
     #[inline(always)]
     pub(crate) fn in_body(&self, normal: Vec4, first: Vec4, second: Vec4) -> Axes {
-        [0, 1, 2]
-            .map(|axis| self.normal[axis] * normal + self.first[axis] * first + self.second[axis] * second)
+        let along = |axis: usize| {
+            self.normal[axis] * normal + self.first[axis] * first + self.second[axis] * second
+        };
+        [along(0), along(1), along(2)]
     }
 }

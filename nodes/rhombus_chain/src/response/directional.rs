@@ -104,7 +104,7 @@ impl DirectionalField {
 
     /// `s` of a vertex at the last contact, m.
     pub(crate) fn s_m(&self, vertex: u32) -> f64 {
-        let arc_m = self.arcs.lengths_m().get(vertex as usize).copied().unwrap_or(f32::MAX);
+        let arc_m = self.arcs.blocks().as_flattened().get(vertex as usize).copied().unwrap_or(f32::MAX);
         f64::from((arc_m - self.contact_radius_m).max(0.0))
     }
 
@@ -117,47 +117,56 @@ impl DirectionalField {
     ) {
         self.profiles.fill::<WAVES>(shape, &self.coefficients);
         let has_modes = !self.amplitudes.is_empty();
-        let blocks = self.arcs.lengths_m().chunks(BLOCK).zip(&self.positions).enumerate();
-        for (block, (arcs, at)) in blocks {
-            let moves = |arc_m: &f32| has_modes || *arc_m < press.reach_m;
-            if !arcs.iter().any(moves) {
+        let moves = |arc_m: f32| has_modes || arc_m < press.reach_m;
+        for (block, (arcs, at)) in self.arcs.blocks().iter().zip(&self.positions).enumerate() {
+            if !arcs.iter().any(|arc_m| moves(*arc_m)) {
                 continue;
             }
-            let mut arc = [f32::MAX; BLOCK];
-            arc[..arcs.len()].copy_from_slice(arcs);
-            let modes = self.modes.at(block, &self.amplitudes);
-            let mut moved = [DVec3::ZERO; BLOCK];
-            for half in 0..HALVES {
-                let arc = Vec4::from_slice(&arc[LANES * half..]);
-                let mut field = self.field::<WAVES>(press, arc, &at[half]);
-                if has_modes {
-                    let rise = (arc * self.rise_per_m).min(Vec4::ONE);
-                    for (field, mode) in field.iter_mut().zip(modes[half]) {
-                        *field += mode * rise;
-                    }
-                }
-                let [x, y, z] = field.map(|axis| axis.to_array());
-                for lane in 0..LANES {
-                    let unit = DVec3::new(f64::from(x[lane]), f64::from(y[lane]), f64::from(z[lane]));
-                    moved[LANES * half + lane] = unit * press.elongation_m;
-                }
-            }
-            if press.lateral_m != DVec3::ZERO {
-                for (moved, arc_m) in moved.iter_mut().zip(arc) {
-                    *moved += press.lateral_m * self.share(press, arc_m);
-                }
-            }
-            let begin = (block * BLOCK) as u32;
-            if arcs.len() == BLOCK && arcs.iter().all(moves) {
-                vertices.extend(begin..begin + BLOCK as u32);
+            let moved = self.block::<WAVES>(press, block, arcs, at);
+            let begin = block * BLOCK;
+            let numbers: [u32; BLOCK] = std::array::from_fn(|lane| (begin + lane) as u32);
+            let here = self.arcs.vertices() - begin;
+            if here >= BLOCK && arcs.iter().all(|arc_m| moves(*arc_m)) {
+                vertices.extend_from_slice(&numbers);
                 displacements.extend_from_slice(&moved);
             } else {
-                for ((vertex, moved), _) in (begin..).zip(moved).zip(arcs).filter(|(_, arc_m)| moves(arc_m)) {
-                    vertices.push(vertex);
-                    displacements.push(moved);
+                for lane in (0..BLOCK.min(here)).filter(|lane| moves(arcs[*lane])) {
+                    vertices.push(numbers[lane]);
+                    displacements.push(moved[lane]);
                 }
             }
         }
+    }
+
+    /// Displacements of the vertices of a block, m.
+    #[inline(always)]
+    fn block<const WAVES: usize>(
+        &self,
+        press: &Press,
+        block: usize,
+        arcs: &[f32; BLOCK],
+        at: &[Axes; HALVES],
+    ) -> [DVec3; BLOCK] {
+        let modes = self.modes.at(block, &self.amplitudes);
+        let mut moved = [DVec3::ZERO; BLOCK];
+        for half in 0..HALVES {
+            let arc = Vec4::from_slice(&arcs[LANES * half..]);
+            let [x, y, z] = self.field::<WAVES>(press, arc, &at[half]);
+            let rise = (arc * self.rise_per_m).min(Vec4::ONE);
+            let x = (x + modes[half][0] * rise).to_array();
+            let y = (y + modes[half][1] * rise).to_array();
+            let z = (z + modes[half][2] * rise).to_array();
+            for lane in 0..LANES {
+                let unit = DVec3::new(f64::from(x[lane]), f64::from(y[lane]), f64::from(z[lane]));
+                moved[LANES * half + lane] = unit * press.elongation_m;
+            }
+        }
+        if press.lateral_m != DVec3::ZERO {
+            for (moved, arc_m) in moved.iter_mut().zip(arcs) {
+                *moved += press.lateral_m * self.share(press, *arc_m);
+            }
+        }
+        moved
     }
 
     /// What the chains do at four vertices for each metre of elongation.
@@ -172,12 +181,19 @@ impl DirectionalField {
         };
         let [cosine, sine] = press.frame.direction(at);
         let (risen_cosine, risen_sine) = (cosine * rise, sine * rise);
-        let waves =
-            [risen_cosine, risen_sine, risen_cosine * cosine - risen_sine * sine, 2.0 * risen_cosine * sine]
-                .map(|wave| wave.to_array());
-        let (nodes, parts) = self.profiles.grid.places(s_m.to_array());
-        let sums = [0, 1, 2, 3]
-            .map(|lane| self.profiles.at::<WAVES>(nodes[lane], parts[lane], waves.map(|wave| wave[lane])));
+        let waves = [
+            risen_cosine.to_array(),
+            risen_sine.to_array(),
+            (risen_cosine * cosine - risen_sine * sine).to_array(),
+            (2.0 * risen_cosine * sine).to_array(),
+        ];
+        let (nodes, parts) = self.profiles.grid.places(s_m);
+        let parts = parts.to_array();
+        let mut sums = [Vec4::ZERO; LANES];
+        for lane in 0..LANES {
+            let waves = [waves[0][lane], waves[1][lane], waves[2][lane], waves[3][lane]];
+            sums[lane] = self.profiles.at::<WAVES>(nodes[lane], parts[lane], waves);
+        }
         let sums = Mat4::from_cols(sums[0], sums[1], sums[2], sums[3]).transpose();
         let closing = self.closing(press, s_m);
         let normal = sums.x_axis * closing;
@@ -195,8 +211,8 @@ impl DirectionalField {
     /// Share of the contact's motion that arrives at an arc whatever the direction.
     fn share(&self, press: &Press, arc_m: f32) -> f64 {
         let s_m = (arc_m - self.contact_radius_m).max(0.0);
-        let (nodes, parts) = self.profiles.grid.places([s_m; 4]);
-        let share = self.profiles.at::<1>(nodes[0], parts[0], [0.0; 4]).x;
+        let (nodes, parts) = self.profiles.grid.places(Vec4::splat(s_m));
+        let share = self.profiles.at::<1>(nodes[0], parts.x, [0.0; 4]).x;
         f64::from(share * self.closing(press, Vec4::splat(s_m)).x)
     }
 }

@@ -3,6 +3,10 @@
 //! Steps have one size up to a distance and twice that size up to twice the distance, and so on. That is how single-precision
 //! numbers are spaced, so the bits of `s + start` hold the step and the place in it.
 
+use glam::Vec4;
+
+use super::lanes::LANES;
+
 /// Steps in which a distance doubles: 64. Between two nodes an exponential that falls to 1/e in the first `start` is off by at
 /// most 6e-5 of its value at the contact, one that falls more slowly by less.
 const BITS: u32 = 6;
@@ -41,12 +45,17 @@ impl Grid {
 
     /// The nodes before four distances, and how far each is on its way to the next, 0 to 1. Beyond the last step: its end.
     #[inline(always)]
-    pub(crate) fn places(&self, s_m: [f32; 4]) -> ([u32; 4], [f32; 4]) {
+    pub(crate) fn places(&self, s_m: Vec4) -> ([u32; LANES], Vec4) {
         let first = self.start_m.to_bits();
         let beyond = f32::from_bits(first + ((self.last + 1) << BELOW) - 1);
-        let bits = s_m.map(|s_m| (s_m + self.start_m).min(beyond).to_bits());
-        let part = |bits: u32| (bits & ((1 << BELOW) - 1)) as i32 as f32 * (1.0 / (1 << BELOW) as f32);
-        (bits.map(|bits| (bits - first) >> BELOW), bits.map(part))
+        let numbers = (s_m + Vec4::splat(self.start_m)).min(Vec4::splat(beyond)).to_array();
+        let (mut nodes, mut parts) = ([0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            let bits = numbers[lane].to_bits();
+            nodes[lane] = (bits - first) >> BELOW;
+            parts[lane] = (bits & ((1 << BELOW) - 1)) as i32 as f32;
+        }
+        (nodes, Vec4::from_array(parts) * (1.0 / (1 << BELOW) as f32))
     }
 
     /// Size of a step at `s_m`, m, or a little more.

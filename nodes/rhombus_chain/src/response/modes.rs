@@ -34,8 +34,10 @@ impl Modes {
         let fields = self.fields.get(begin..begin + self.count).unwrap_or_default();
         for (field, z) in fields.iter().zip(amplitudes) {
             let z = Vec4::splat(*z);
-            for (sum, field) in sums.iter_mut().flatten().zip(field.iter().flatten()) {
-                *sum += *field * z;
+            for half in 0..HALVES {
+                for axis in 0..3 {
+                    sums[half][axis] += field[half][axis] * z;
+                }
             }
         }
         sums
