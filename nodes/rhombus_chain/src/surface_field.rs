@@ -231,7 +231,6 @@ impl SurfaceField {
     fn displace_calibrated(&mut self, body: &Body, response: &Response, impression: &Impression) {
         let Spreading::Directional(field) = &mut self.spreading else { return };
         let (mesh, shape, own) = (body.mesh(), &self.shape, &mut self.own);
-        own.clear();
         let elongation_m = elongation_m(impression.depth_m);
         let Moved { vertices, displacements } = own;
         field.solve(mesh, response, shape, impression, elongation_m, vertices, displacements);

@@ -16,6 +16,8 @@ const TABLE_UP_TO: usize = 4000;
 /// Longest edges of the contact's face within which arcs are solved, and from which on they are interpolated.
 const SOLVED: f64 = 1.5;
 const INTERPOLATED: f64 = 3.0;
+/// Longest edges by which a solved arc may be longer than the interpolated one: 8 % of what counts, and labels are off by 5 %.
+const MARGIN: f64 = 0.25;
 /// Nothing leads there.
 const FAR: f32 = 1e9;
 
@@ -39,6 +41,8 @@ pub(crate) struct ArcTable {
     rows: Vec<f32>,
     /// What was solved last, in whole blocks.
     arcs: Vec<[f32; BLOCK]>,
+    /// From where and up to what limit: a contact that stays is not solved again.
+    solved: Option<(SurfacePoint, f64)>,
     longest_m: f64,
 }
 
@@ -68,11 +72,17 @@ impl ArcTable {
             rows.iter().filter(|arc| **arc < FAR).fold(0.0, |most: f32, arc| most.max(*arc)).into()
         };
         let arcs = vec![[FAR; BLOCK]; vertices.div_ceil(BLOCK)];
-        Self { solver, vertices, rows, arcs, longest_m }
+        Self { solver, vertices, rows, arcs, solved: None, longest_m }
     }
 
     /// Finds the arcs from `source` to all vertices; those not below `limit_m` may be anything not below it.
     pub(crate) fn solve(&mut self, mesh: &SurfaceMesh, source: SurfacePoint, limit_m: f64) {
+        // The table does not depend on the limit.
+        let wanted = Some((source, if self.rows.is_empty() { limit_m } else { f64::INFINITY }));
+        if self.solved == wanted {
+            return;
+        }
+        self.solved = wanted;
         let arcs = self.arcs.as_flattened_mut();
         if self.rows.is_empty() {
             self.solver.solve(mesh, source, limit_m);
@@ -93,8 +103,8 @@ impl ArcTable {
         let corners = mesh.corners(source.face);
         let edge = (0..3).map(|k| length(corners[k] - corners[(k + 1) % 3])).fold(0.0, f64::max);
         let (solved, interpolated) = (SOLVED * edge, INTERPOLATED * edge);
-        // Solved arcs count where the interpolated ones are short; those are longer by an edge at most.
-        self.solver.solve(mesh, source, interpolated + edge);
+        // Solved arcs count where the interpolated ones are short, and then they are no longer, but for what labels are off.
+        self.solver.solve(mesh, source, interpolated + MARGIN * edge);
         for (vertex, arc_m) in self.solver.iter() {
             let arc = &mut arcs[vertex as usize];
             let between = ((f64::from(*arc) - solved) / (interpolated - solved)).clamp(0.0, 1.0);

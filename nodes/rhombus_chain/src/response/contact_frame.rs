@@ -46,9 +46,8 @@ impl ContactFrame {
     /// The vectors that have these parts along the normal, the first and the second vector of the frame.
     #[inline(always)]
     pub(crate) fn in_body(&self, normal: Vec4, first: Vec4, second: Vec4) -> Axes {
-        let along = |axis: usize| {
-            self.normal[axis] * normal + self.first[axis] * first + self.second[axis] * second
-        };
+        let along =
+            |axis: usize| self.normal[axis] * normal + self.first[axis] * first + self.second[axis] * second;
         [along(0), along(1), along(2)]
     }
 }

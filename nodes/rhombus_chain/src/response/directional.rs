@@ -13,6 +13,11 @@ use super::lanes::{Axes, BLOCK, HALVES, LANES, in_blocks};
 use super::modes::Modes;
 use super::profiles::Profiles;
 
+/// All lanes.
+const WHOLE: u32 = (1 << LANES) - 1;
+/// Contact radius below which there is none, m.
+const NO_RADIUS_M: f64 = 1e-9;
+
 /// What a calibrated field needs besides the response: made once for a body and a tissue.
 #[derive(Clone, Debug)]
 pub(crate) struct DirectionalField {
@@ -21,8 +26,10 @@ pub(crate) struct DirectionalField {
     modes: Modes,
     positions: Vec<[Axes; HALVES]>,
     contact_radius_m: f32,
-    /// One over the widest ramp `max(h_p, r_c)`.
+    /// One over the contact radius.
     rise_per_m: f32,
+    /// One over the widest ramp `max(h_p, r_c)`.
+    mode_rise_per_m: f32,
     /// At the contact.
     coefficients: Vec<f32>,
     amplitudes: Vec<f32>,
@@ -50,7 +57,8 @@ impl DirectionalField {
             modes: Modes::new(response),
             positions: in_blocks(positions),
             contact_radius_m: shape.contact_radius_m() as f32,
-            rise_per_m: shape.widest_ramp_per_m() as f32,
+            rise_per_m: rise_per_m(shape),
+            mode_rise_per_m: shape.widest_ramp_per_m() as f32,
             coefficients: vec![0.0; parts.chains * parts.coefficients_per_chain()],
             amplitudes: vec![0.0; parts.modes],
         }
@@ -60,7 +68,8 @@ impl DirectionalField {
     pub(crate) fn retune(&mut self, shape: &ContactShape) {
         self.profiles = Profiles::new(shape, self.arcs.longest_m());
         self.contact_radius_m = shape.contact_radius_m() as f32;
-        self.rise_per_m = shape.widest_ramp_per_m() as f32;
+        self.rise_per_m = rise_per_m(shape);
+        self.mode_rise_per_m = shape.widest_ramp_per_m() as f32;
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
@@ -72,8 +81,8 @@ impl DirectionalField {
             + numbers.iter().sum::<usize>()
     }
 
-    /// Appends every vertex that `impression` moves, ascending, and its displacement, m. `shape` is at its depth, which is
-    /// `elongation_m` of the chains. Real-time safe with room for all vertices.
+    /// Writes every vertex that `impression` moves, ascending, and its displacement, m, in the place of what was there. `shape` is
+    /// at its depth, which is `elongation_m` of the chains. Real-time safe with room for all vertices.
     pub(crate) fn solve(
         &mut self,
         mesh: &SurfaceMesh,
@@ -116,69 +125,78 @@ impl DirectionalField {
         displacements: &mut Vec<DVec3>,
     ) {
         self.profiles.fill::<WAVES>(shape, &self.coefficients);
+        let all = self.arcs.vertices();
+        // What is there already is overwritten.
+        vertices.resize(all, 0);
+        displacements.resize(all, DVec3::ZERO);
         let has_modes = !self.amplitudes.is_empty();
-        let moves = |arc_m: f32| has_modes || arc_m < press.reach_m;
+        let mut count = 0;
         for (block, (arcs, at)) in self.arcs.blocks().iter().zip(&self.positions).enumerate() {
-            if !arcs.iter().any(|arc_m| moves(*arc_m)) {
-                continue;
-            }
-            let moved = self.block::<WAVES>(press, block, arcs, at);
-            let begin = block * BLOCK;
-            let numbers: [u32; BLOCK] = std::array::from_fn(|lane| (begin + lane) as u32);
-            let here = self.arcs.vertices() - begin;
-            if here >= BLOCK && arcs.iter().all(|arc_m| moves(*arc_m)) {
-                vertices.extend_from_slice(&numbers);
-                displacements.extend_from_slice(&moved);
-            } else {
-                for lane in (0..BLOCK.min(here)).filter(|lane| moves(arcs[*lane])) {
-                    vertices.push(numbers[lane]);
-                    displacements.push(moved[lane]);
+            let modes = self.modes.at(block, &self.amplitudes);
+            for half in 0..HALVES {
+                let begin = block * BLOCK + half * LANES;
+                let arc_m = Vec4::from_slice(&arcs[LANES * half..]);
+                let within = arc_m.cmplt(Vec4::splat(press.reach_m)).bitmask();
+                let moving = if has_modes { WHOLE } else { within };
+                if moving == 0 {
+                    continue;
+                }
+                let [x, y, z] = self.per_metre::<WAVES>(press, arc_m, &at[half], &modes[half]);
+                let unit = |lane: usize| DVec3::new(x[lane].into(), y[lane].into(), z[lane].into());
+                let first = count;
+                let room = vertices.get_mut(count..count + LANES);
+                let room = room.zip(displacements.get_mut(count..count + LANES));
+                if let Some((vertices, displacements)) =
+                    room.filter(|_| moving == WHOLE && begin + LANES <= all)
+                {
+                    for lane in 0..LANES {
+                        vertices[lane] = (begin + lane) as u32;
+                        displacements[lane] = unit(lane) * press.elongation_m;
+                    }
+                    count += LANES;
+                } else {
+                    for lane in (0..LANES).filter(|lane| moving & (1 << lane) != 0 && begin + lane < all) {
+                        vertices[count] = (begin + lane) as u32;
+                        displacements[count] = unit(lane) * press.elongation_m;
+                        count += 1;
+                    }
+                }
+                if press.lateral_m != DVec3::ZERO {
+                    for (vertex, displacement) in
+                        vertices[first..count].iter().zip(&mut displacements[first..])
+                    {
+                        *displacement += press.lateral_m * self.share(press, arc_m[*vertex as usize % LANES]);
+                    }
                 }
             }
         }
+        vertices.truncate(count);
+        displacements.truncate(count);
     }
 
-    /// Displacements of the vertices of a block, m.
+    /// Displacements of four vertices for each metre of elongation: x, y and z.
     #[inline(always)]
-    fn block<const WAVES: usize>(
+    fn per_metre<const WAVES: usize>(
         &self,
         press: &Press,
-        block: usize,
-        arcs: &[f32; BLOCK],
-        at: &[Axes; HALVES],
-    ) -> [DVec3; BLOCK] {
-        let modes = self.modes.at(block, &self.amplitudes);
-        let mut moved = [DVec3::ZERO; BLOCK];
-        for half in 0..HALVES {
-            let arc = Vec4::from_slice(&arcs[LANES * half..]);
-            let [x, y, z] = self.field::<WAVES>(press, arc, &at[half]);
-            let rise = (arc * self.rise_per_m).min(Vec4::ONE);
-            let x = (x + modes[half][0] * rise).to_array();
-            let y = (y + modes[half][1] * rise).to_array();
-            let z = (z + modes[half][2] * rise).to_array();
-            for lane in 0..LANES {
-                let unit = DVec3::new(f64::from(x[lane]), f64::from(y[lane]), f64::from(z[lane]));
-                moved[LANES * half + lane] = unit * press.elongation_m;
-            }
-        }
-        if press.lateral_m != DVec3::ZERO {
-            for (moved, arc_m) in moved.iter_mut().zip(arcs) {
-                *moved += press.lateral_m * self.share(press, *arc_m);
-            }
-        }
-        moved
+        arc_m: Vec4,
+        at: &Axes,
+        modes: &Axes,
+    ) -> [[f32; LANES]; 3] {
+        let field = self.chains::<WAVES>(press, arc_m, at);
+        let rise = (arc_m * self.mode_rise_per_m).min(Vec4::ONE);
+        let x = field[0] + modes[0] * rise;
+        let y = field[1] + modes[1] * rise;
+        let z = field[2] + modes[2] * rise;
+        [x.to_array(), y.to_array(), z.to_array()]
     }
 
     /// What the chains do at four vertices for each metre of elongation.
     #[inline(always)]
-    fn field<const WAVES: usize>(&self, press: &Press, arc_m: Vec4, at: &Axes) -> Axes {
+    fn chains<const WAVES: usize>(&self, press: &Press, arc_m: Vec4, at: &Axes) -> Axes {
         let s_m = (arc_m - Vec4::splat(self.contact_radius_m)).max(Vec4::ZERO);
         // What has a direction rises from its zero at the contact in proportion to the arc, up to what the table has for s = 0.
-        let rise = if self.contact_radius_m > 0.0 {
-            (arc_m * (1.0 / self.contact_radius_m)).min(Vec4::ONE)
-        } else {
-            Vec4::ONE
-        };
+        let rise = (arc_m * self.rise_per_m).min(Vec4::ONE);
         let [cosine, sine] = press.frame.direction(at);
         let (risen_cosine, risen_sine) = (cosine * rise, sine * rise);
         let waves = [
@@ -215,4 +233,8 @@ impl DirectionalField {
         let share = self.profiles.at::<1>(nodes[0], parts.x, [0.0; 4]).x;
         f64::from(share * self.closing(press, Vec4::splat(s_m)).x)
     }
+}
+
+fn rise_per_m(shape: &ContactShape) -> f32 {
+    (1.0 / shape.contact_radius_m().max(NO_RADIUS_M)) as f32
 }

@@ -7,9 +7,11 @@ use glam::Vec4;
 
 use super::lanes::LANES;
 
-/// Steps in which a distance doubles: 64. Between two nodes an exponential that falls to 1/e in the first `start` is off by at
-/// most 6e-5 of its value at the contact, one that falls more slowly by less.
-const BITS: u32 = 6;
+/// Steps in which a distance doubles: 32. Linear between two nodes, an exponential is off by at most 1e-4 of its value at the
+/// contact.
+const BITS: u32 = 5;
+/// `start` is at most this part of the length in which the steepest shape falls to 1/e.
+const START: f64 = 0.5;
 /// Bits of a number below those that tell the step.
 const BELOW: u32 = f32::MANTISSA_DIGITS - 1 - BITS;
 /// Distances are no more than this many times `start`.
@@ -27,7 +29,7 @@ impl Grid {
     /// Nodes up to `reach_m` at least, as far apart as shapes need that change in `finest_m`.
     pub(crate) fn new(finest_m: f64, reach_m: f64) -> Self {
         let reach_m = reach_m.max(f64::from(f32::MIN_POSITIVE) * MOST_STARTS);
-        let wanted_m = finest_m.clamp(reach_m / MOST_STARTS, reach_m) as f32;
+        let wanted_m = (START * finest_m).clamp(reach_m / MOST_STARTS, reach_m) as f32;
         let exponent = wanted_m.to_bits() >> (f32::MANTISSA_DIGITS - 1);
         let start_m = f32::from_bits(exponent << (f32::MANTISSA_DIGITS - 1));
         Self { start_m, last: ((reach_m as f32 + start_m).to_bits() - start_m.to_bits()) >> BELOW }

@@ -52,6 +52,7 @@ impl Profiles {
     }
 
     /// Fills the rows for a contact with the depth of `shape` and `coefficients`, P x (2 + 6 H). Real-time safe.
+    #[inline(always)]
     pub(crate) fn fill<const WAVES: usize>(&mut self, shape: &ContactShape, coefficients: &[f32]) {
         let mut chains = [ChainHere::default(); MOST_CHAINS];
         let per_chain = 3 * WAVES - 1;
