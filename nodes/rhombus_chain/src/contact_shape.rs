@@ -228,9 +228,15 @@ impl ContactShape {
         self.chains.iter().map(|chain| chain.units * chain.pitch_m).fold(0.0, f64::max)
     }
 
-    /// The smallest length in which a chain's shape falls to 1/e, m.
-    pub(crate) fn steepest_fall_m(&self) -> f64 {
-        self.chains.iter().map(|chain| -chain.pitch_m / chain.ln_ratio).fold(f64::INFINITY, f64::min)
+    /// The smallest length in which a chain's shape falls to 1/e, or the shortest unit, m: nothing changes faster.
+    pub(crate) fn finest_m(&self) -> f64 {
+        let lengths = self.chains.iter().map(|chain| chain.pitch_m.min(-chain.pitch_m / chain.ln_ratio));
+        lengths.fold(f64::INFINITY, f64::min)
+    }
+
+    /// One over the largest `max(h, r_c)` of the chains.
+    pub(crate) fn widest_ramp_per_m(&self) -> f64 {
+        self.chains.iter().map(|chain| chain.ramp_per_m).fold(f64::INFINITY, f64::min)
     }
 
     /// `r_c`, m.

@@ -15,7 +15,11 @@
 //! moves by exactly `DL n`, which is why the modes rise from zero there, with `w` of the widest chain.
 
 mod arc_table;
+mod contact_frame;
 mod directional;
+mod grid;
+mod lanes;
+mod modes;
 mod profiles;
 
 use glam::DVec3;

@@ -231,27 +231,17 @@ impl SurfaceField {
     fn displace_calibrated(&mut self, body: &Body, response: &Response, impression: &Impression) {
         let Spreading::Directional(field) = &mut self.spreading else { return };
         let (mesh, shape, own) = (body.mesh(), &self.shape, &mut self.own);
-        own.clear();
+        let elongation_m = elongation_m(impression.depth_m);
+        let Moved { vertices, displacements } = own;
+        field.solve(mesh, response, shape, impression, elongation_m, vertices, displacements);
         if let Some(expansion) = &mut self.expansion {
             expansion.begin();
-        }
-        let elongation_m = elongation_m(impression.depth_m);
-        field.solve(mesh, response, shape, impression, |moved| {
-            let displacement = moved.displacement * elongation_m;
-            if let Some(expansion) = &mut self.expansion {
-                let area_m2 = mesh.vertex_areas()[moved.vertex as usize];
-                expansion.note(
-                    shape,
-                    Spread::Geodesic,
-                    moved.s_m,
-                    displacement.dot(impression.normal),
-                    area_m2,
-                );
+            for (&vertex, displacement) in vertices.iter().zip(displacements.iter()) {
+                let normal_m = displacement.dot(impression.normal);
+                let area_m2 = mesh.vertex_areas()[vertex as usize];
+                expansion.note(shape, Spread::Geodesic, field.s_m(vertex), normal_m, area_m2);
             }
-            own.push(moved.vertex, displacement + impression.lateral_m * moved.share);
-        });
-        if let Some(expansion) = &self.expansion {
-            expansion.add(mesh, &own.vertices, &mut own.displacements);
+            expansion.add(mesh, vertices, displacements);
         }
     }
 }

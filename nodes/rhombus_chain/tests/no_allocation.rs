@@ -1,11 +1,13 @@
 //! What runs while a device waits for its force allocates nothing.
 #![allow(clippy::expect_used, reason = "a helper that cannot go on stops its test")]
 
+mod calibrated;
 mod common;
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc};
+use calibrated::{CHAINS, calibrated, press, turned};
 use common::{Random, body, bumpy, surface, tissue_with};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use rhombus_chain::{ArcLengths, Interaction, Mode, Spread, StiffnessMap, SurfaceField};
 
 #[global_allocator]
@@ -73,5 +75,26 @@ fn no_refusal_and_no_query_of_the_index_or_the_arcs_allocates() {
             assert!(interaction.step(&body, &tissue, 4, p, false).is_err());
             interaction.reset();
         });
+    }
+}
+
+#[test]
+fn no_surface_of_a_calibrated_body_allocates_after_construction() {
+    let mesh = body(bumpy(4)).mesh().clone();
+    let mut without_modes = turned(&mesh, DMat3::IDENTITY);
+    (without_modes.modes, without_modes.amplitudes, without_modes.mode_fields) = (0, Vec::new(), Vec::new());
+    for parts in [turned(&mesh, DMat3::IDENTITY), without_modes] {
+        let body = calibrated(mesh.clone(), parts);
+        for expansion in [0.0, 0.5] {
+            let tissue = tissue_with(CHAINS, surface(expansion, Spread::Geodesic));
+            let (mut field, mut random) = (SurfaceField::new(&body, &tissue), Random(6));
+            for _ in 0..200 {
+                let at = random.surface_point(&mesh);
+                let mut impression = press(&mesh, at, 0.01 * random.unit() - 0.003);
+                impression.lateral_m = impression.normal.any_orthonormal_vector() * 1e-3;
+                assert_no_alloc(|| field.update(&body, &tissue, [impression]));
+                assert!(!field.vertices().is_empty());
+            }
+        }
     }
 }

@@ -1,73 +1,66 @@
 //! The field of one contact on a calibrated body.
-//!
-//! In single precision, eight vertices at a time: the compiler then works on several at once. Each vertex is worked out by
-//! itself, so the bits do not depend on how many that are.
 
-use glam::DVec3;
+use glam::{DVec3, Mat4, Vec4};
 
 use crate::contact_shape::ContactShape;
 use crate::interaction::Impression;
 use crate::mesh::SurfaceMesh;
 
+use super::Response;
 use super::arc_table::ArcTable;
+use super::contact_frame::ContactFrame;
+use super::lanes::{Axes, BLOCK, HALVES, LANES, in_blocks};
+use super::modes::Modes;
 use super::profiles::Profiles;
-use super::{MOST_CHAINS, MOST_HARMONICS, Response, tangent_frame};
 
-/// Vertices worked out together.
-const LANES: usize = 8;
-/// Sums over the chains: one for each coefficient of a chain.
-const SUMS: usize = 2 + 6 * MOST_HARMONICS;
-/// As in `surface_field`: where "away" loses its meaning.
-const AWAY_FADES_BELOW: f32 = 0.2;
-
-type Lanes = [f32; LANES];
-
-/// One vertex of the field.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct MovedVertex {
-    pub(crate) vertex: u32,
-    /// Arc less the contact radius, m.
-    pub(crate) s_m: f64,
-    /// For each metre of elongation.
-    pub(crate) displacement: DVec3,
-    /// Share of the contact's motion that arrives here whatever the direction.
-    pub(crate) share: f64,
-}
+/// All lanes.
+const WHOLE: u32 = (1 << LANES) - 1;
+/// Contact radius below which there is none, m.
+const NO_RADIUS_M: f64 = 1e-9;
 
 /// What a calibrated field needs besides the response: made once for a body and a tissue.
 #[derive(Clone, Debug)]
 pub(crate) struct DirectionalField {
     arcs: ArcTable,
     profiles: Profiles,
+    modes: Modes,
+    positions: Vec<[Axes; HALVES]>,
     contact_radius_m: f32,
-    /// x, y and z of the vertices, each padded to whole lanes.
-    positions: [Vec<f32>; 3],
+    /// One over the contact radius.
+    rise_per_m: f32,
+    /// One over the widest ramp `max(h_p, r_c)`.
+    mode_rise_per_m: f32,
     /// At the contact.
     coefficients: Vec<f32>,
     amplitudes: Vec<f32>,
-    /// x, y and z of `sum_j z_j Phi_j`, interleaved.
-    modes: Vec<f32>,
+}
+
+/// One press, as the vertices need it.
+struct Press {
+    frame: ContactFrame,
+    elongation_m: f64,
+    lateral_m: DVec3,
+    /// Arc from which on nothing moves; `M`; one over the last stretch before it.
+    reach_m: f32,
+    boundary_m: f32,
+    closing_per_m: f32,
 }
 
 impl DirectionalField {
     pub(crate) fn new(mesh: &SurfaceMesh, response: &Response, shape: &ContactShape) -> Self {
-        let vertices = mesh.vertices().len();
-        let padded = vertices.next_multiple_of(LANES);
-        let axis = |axis: usize| {
-            let mut all: Vec<f32> = mesh.vertices().iter().map(|vertex| vertex[axis] as f32).collect();
-            all.resize(padded, 0.0);
-            all
-        };
         let parts = response.parts();
         let arcs = ArcTable::new(mesh);
+        let positions = mesh.vertices().iter().map(|vertex| vertex.as_vec3().to_array());
         Self {
             profiles: Profiles::new(shape, arcs.longest_m()),
             arcs,
+            modes: Modes::new(response),
+            positions: in_blocks(positions),
             contact_radius_m: shape.contact_radius_m() as f32,
-            positions: [axis(0), axis(1), axis(2)],
+            rise_per_m: rise_per_m(shape),
+            mode_rise_per_m: shape.widest_ramp_per_m() as f32,
             coefficients: vec![0.0; parts.chains * parts.coefficients_per_chain()],
             amplitudes: vec![0.0; parts.modes],
-            modes: vec![0.0; if parts.modes > 0 { 3 * padded } else { 0 }],
         }
     }
 
@@ -75,178 +68,173 @@ impl DirectionalField {
     pub(crate) fn retune(&mut self, shape: &ContactShape) {
         self.profiles = Profiles::new(shape, self.arcs.longest_m());
         self.contact_radius_m = shape.contact_radius_m() as f32;
+        self.rise_per_m = rise_per_m(shape);
+        self.mode_rise_per_m = shape.widest_ramp_per_m() as f32;
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
-        let numbers = self.positions.iter().chain([&self.coefficients, &self.amplitudes, &self.modes]);
+        let numbers = [&self.coefficients, &self.amplitudes].map(|n| size_of_val(n.as_slice()));
         self.arcs.memory_bytes()
             + self.profiles.memory_bytes()
-            + numbers.map(|n| size_of_val(n.as_slice())).sum::<usize>()
+            + self.modes.memory_bytes()
+            + size_of_val(self.positions.as_slice())
+            + numbers.iter().sum::<usize>()
     }
 
-    /// Gives every vertex that `impression` moves to `take`, in ascending order. `shape` is at its depth. Real-time safe.
+    /// Writes every vertex that `impression` moves, ascending, and its displacement, m, in the place of what was there. `shape` is
+    /// at its depth, which is `elongation_m` of the chains. Real-time safe with room for all vertices.
     pub(crate) fn solve(
         &mut self,
         mesh: &SurfaceMesh,
         response: &Response,
         shape: &ContactShape,
         impression: &Impression,
-        take: impl FnMut(MovedVertex),
+        elongation_m: f64,
+        vertices: &mut Vec<u32>,
+        displacements: &mut Vec<DVec3>,
     ) {
         response.at(mesh, impression.at, impression.normal, &mut self.coefficients, &mut self.amplitudes);
-        self.profiles.set_depth(shape);
-        self.add_modes(response);
+        self.arcs.solve(mesh, impression.at, shape.reach_m());
+        let boundary_m = shape.boundary_m() as f32;
+        let press = Press {
+            frame: ContactFrame::new(impression),
+            elongation_m,
+            lateral_m: impression.lateral_m,
+            reach_m: shape.reach_m() as f32,
+            boundary_m,
+            closing_per_m: 1.0 / self.profiles.grid.step_m(boundary_m),
+        };
         match response.harmonics() {
-            0 => self.walk::<0>(mesh, shape, impression, take),
-            1 => self.walk::<1>(mesh, shape, impression, take),
-            _ => self.walk::<2>(mesh, shape, impression, take),
+            0 => self.walk::<1>(shape, &press, vertices, displacements),
+            1 => self.walk::<3>(shape, &press, vertices, displacements),
+            _ => self.walk::<5>(shape, &press, vertices, displacements),
         }
     }
 
-    fn add_modes(&mut self, response: &Response) {
-        self.modes.fill(0.0);
-        let fields = response.parts().mode_fields.chunks_exact(3 * response.vertices.max(1));
-        for (z, field) in self.amplitudes.iter().zip(fields) {
-            for (sum, phi) in self.modes.iter_mut().zip(field) {
-                *sum += z * phi;
-            }
-        }
+    /// `s` of a vertex at the last contact, m.
+    pub(crate) fn s_m(&self, vertex: u32) -> f64 {
+        let arc_m = self.arcs.blocks().as_flattened().get(vertex as usize).copied().unwrap_or(f32::MAX);
+        f64::from((arc_m - self.contact_radius_m).max(0.0))
     }
 
-    fn walk<const H: usize>(
+    fn walk<const WAVES: usize>(
         &mut self,
-        mesh: &SurfaceMesh,
         shape: &ContactShape,
-        impression: &Impression,
-        mut take: impl FnMut(MovedVertex),
+        press: &Press,
+        vertices: &mut Vec<u32>,
+        displacements: &mut Vec<DVec3>,
     ) {
-        let reach_m = shape.reach_m();
-        self.arcs.solve(mesh, impression.at, reach_m);
-        let reach = reach_m as f32;
-        let contact = Contact::new(impression);
+        self.profiles.fill::<WAVES>(shape, &self.coefficients);
+        let all = self.arcs.vertices();
+        // What is there already is overwritten.
+        vertices.resize(all, 0);
+        displacements.resize(all, DVec3::ZERO);
         let has_modes = !self.amplitudes.is_empty();
-        for (chunk, arcs) in self.arcs.lengths_m().chunks(LANES).enumerate() {
-            if !has_modes && arcs.iter().all(|arc| *arc >= reach) {
-                continue;
-            }
-            let begin = chunk * LANES;
-            let mut arc = [f32::MAX; LANES];
-            arc[..arcs.len()].copy_from_slice(arcs);
-            let at = |axis: usize| -> Lanes {
-                let lanes = self.positions[axis].get(begin..begin + LANES).unwrap_or_default();
-                lanes.try_into().unwrap_or([0.0; LANES])
-            };
-            let s: Lanes = arc.map(|arc| (arc - self.contact_radius_m).max(0.0));
-            let (sums, rise) = self.sums::<H>(&arc, &s);
-            let [x, y, z] = contact.displacements::<H>([at(0), at(1), at(2)], &sums);
-            for lane in 0..arcs.len() {
-                if !has_modes && arc[lane] >= reach {
+        let mut count = 0;
+        for (block, (arcs, at)) in self.arcs.blocks().iter().zip(&self.positions).enumerate() {
+            let modes = self.modes.at(block, &self.amplitudes);
+            for half in 0..HALVES {
+                let begin = block * BLOCK + half * LANES;
+                let arc_m = Vec4::from_slice(&arcs[LANES * half..]);
+                let within = arc_m.cmplt(Vec4::splat(press.reach_m)).bitmask();
+                let moving = if has_modes { WHOLE } else { within };
+                if moving == 0 {
                     continue;
                 }
-                let vertex = begin + lane;
-                let mut displacement = DVec3::new(f64::from(x[lane]), f64::from(y[lane]), f64::from(z[lane]));
-                if let Some([x, y, z]) = self.modes.get(3 * vertex..).and_then(|modes| modes.first_chunk()) {
-                    let mode = DVec3::new(f64::from(*x), f64::from(*y), f64::from(*z));
-                    displacement += mode * f64::from(rise[lane]);
+                let [x, y, z] = self.per_metre::<WAVES>(press, arc_m, &at[half], &modes[half]);
+                let unit = |lane: usize| DVec3::new(x[lane].into(), y[lane].into(), z[lane].into());
+                let first = count;
+                let room = vertices.get_mut(count..count + LANES);
+                let room = room.zip(displacements.get_mut(count..count + LANES));
+                if let Some((vertices, displacements)) =
+                    room.filter(|_| moving == WHOLE && begin + LANES <= all)
+                {
+                    for lane in 0..LANES {
+                        vertices[lane] = (begin + lane) as u32;
+                        displacements[lane] = unit(lane) * press.elongation_m;
+                    }
+                    count += LANES;
+                } else {
+                    for lane in (0..LANES).filter(|lane| moving & (1 << lane) != 0 && begin + lane < all) {
+                        vertices[count] = (begin + lane) as u32;
+                        displacements[count] = unit(lane) * press.elongation_m;
+                        count += 1;
+                    }
                 }
-                let share = f64::from(sums[0][lane]);
-                take(MovedVertex { vertex: vertex as u32, s_m: f64::from(s[lane]), displacement, share });
-            }
-        }
-    }
-
-    /// `sum_p g_p a_p0` and `sum_p g_p w_p` times each other coefficient; and `w` of the chain with the widest ramp.
-    #[inline(always)]
-    fn sums<const H: usize>(&self, arc: &Lanes, s: &Lanes) -> ([Lanes; SUMS], Lanes) {
-        let per_chain = 2 + 6 * H;
-        let mut shapes = [[0.0; LANES]; MOST_CHAINS];
-        for lane in 0..LANES {
-            let mut here = [0.0; MOST_CHAINS];
-            self.profiles.at(s[lane], &mut here);
-            for (shape, here) in shapes.iter_mut().zip(here) {
-                shape[lane] = here;
-            }
-        }
-        let mut sums = [[0.0; LANES]; SUMS];
-        let mut rise = [1.0; LANES];
-        let chains = self.coefficients.chunks_exact(per_chain);
-        for ((shape, ramp), coefficients) in shapes.iter().zip(&self.profiles.ramps_per_m).zip(chains) {
-            let mut directed = [0.0; LANES];
-            for lane in 0..LANES {
-                let w = (arc[lane] * ramp).min(1.0);
-                rise[lane] = w.min(rise[lane]);
-                directed[lane] = shape[lane] * w;
-                sums[0][lane] += shape[lane] * coefficients[0];
-            }
-            for (sum, coefficient) in sums.iter_mut().zip(coefficients).skip(1) {
-                for lane in 0..LANES {
-                    sum[lane] += directed[lane] * coefficient;
+                if press.lateral_m != DVec3::ZERO {
+                    for (vertex, displacement) in
+                        vertices[first..count].iter().zip(&mut displacements[first..])
+                    {
+                        *displacement += press.lateral_m * self.share(press, arc_m[*vertex as usize % LANES]);
+                    }
                 }
             }
         }
-        for lane in 0..LANES {
-            // The contact moves by exactly DL, whatever the last digit of the shares' sum.
-            sums[0][lane] = if s[lane] > 0.0 { sums[0][lane] } else { 1.0 };
-        }
-        (sums, rise)
-    }
-}
-
-/// Where a contact is, in single precision.
-struct Contact {
-    position: [f32; 3],
-    normal: [f32; 3],
-    first: [f32; 3],
-    second: [f32; 3],
-}
-
-impl Contact {
-    fn new(impression: &Impression) -> Self {
-        let [first, second] = tangent_frame(impression.normal);
-        let single = |vector: DVec3| vector.as_vec3().to_array();
-        Self {
-            position: single(impression.position),
-            normal: single(impression.normal),
-            first: single(first),
-            second: single(second),
-        }
+        vertices.truncate(count);
+        displacements.truncate(count);
     }
 
-    /// x, y and z of the displacement for each metre of elongation, without modes.
+    /// Displacements of four vertices for each metre of elongation: x, y and z.
     #[inline(always)]
-    fn displacements<const H: usize>(&self, at: [Lanes; 3], sums: &[Lanes; SUMS]) -> [Lanes; 3] {
-        let n = &self.normal;
-        let mut moved = [[0.0; LANES]; 3];
+    fn per_metre<const WAVES: usize>(
+        &self,
+        press: &Press,
+        arc_m: Vec4,
+        at: &Axes,
+        modes: &Axes,
+    ) -> [[f32; LANES]; 3] {
+        let field = self.chains::<WAVES>(press, arc_m, at);
+        let rise = (arc_m * self.mode_rise_per_m).min(Vec4::ONE);
+        let x = field[0] + modes[0] * rise;
+        let y = field[1] + modes[1] * rise;
+        let z = field[2] + modes[2] * rise;
+        [x.to_array(), y.to_array(), z.to_array()]
+    }
+
+    /// What the chains do at four vertices for each metre of elongation.
+    #[inline(always)]
+    fn chains<const WAVES: usize>(&self, press: &Press, arc_m: Vec4, at: &Axes) -> Axes {
+        let s_m = (arc_m - Vec4::splat(self.contact_radius_m)).max(Vec4::ZERO);
+        // What has a direction rises from its zero at the contact in proportion to the arc, up to what the table has for s = 0.
+        let rise = (arc_m * self.rise_per_m).min(Vec4::ONE);
+        let [cosine, sine] = press.frame.direction(at);
+        let (risen_cosine, risen_sine) = (cosine * rise, sine * rise);
+        let waves = [
+            risen_cosine.to_array(),
+            risen_sine.to_array(),
+            (risen_cosine * cosine - risen_sine * sine).to_array(),
+            (2.0 * risen_cosine * sine).to_array(),
+        ];
+        let (nodes, parts) = self.profiles.grid.places(s_m);
+        let parts = parts.to_array();
+        let mut sums = [Vec4::ZERO; LANES];
         for lane in 0..LANES {
-            let offset = [0, 1, 2].map(|axis| at[axis][lane] - self.position[axis]);
-            let height = dot(&offset, n);
-            let in_plane = [0, 1, 2].map(|axis| offset[axis] - n[axis] * height);
-            let scale = dot(&in_plane, &in_plane).sqrt().max(AWAY_FADES_BELOW * dot(&offset, &offset).sqrt());
-            let inverse = if scale > 0.0 { 1.0 / scale } else { 0.0 };
-            let away = in_plane.map(|part| part * inverse);
-            let around = [
-                n[1] * away[2] - n[2] * away[1],
-                n[2] * away[0] - n[0] * away[2],
-                n[0] * away[1] - n[1] * away[0],
-            ];
-            let (cosine, sine) = (dot(&away, &self.first), dot(&away, &self.second));
-            let waves = [cosine, sine, cosine * cosine - sine * sine, 2.0 * cosine * sine];
-            let series = |begin: usize| -> f32 {
-                waves.iter().take(2 * H).enumerate().map(|(k, wave)| wave * sums[begin + k][lane]).sum()
-            };
-            let along_normal = sums[0][lane] + series(1);
-            let along_away = sums[1 + 2 * H][lane] + series(2 + 2 * H);
-            let along_around = series(2 + 4 * H);
-            for axis in 0..3 {
-                moved[axis][lane] =
-                    n[axis] * along_normal + away[axis] * along_away + around[axis] * along_around;
-            }
+            let waves = [waves[0][lane], waves[1][lane], waves[2][lane], waves[3][lane]];
+            sums[lane] = self.profiles.at::<WAVES>(nodes[lane], parts[lane], waves);
         }
-        moved
+        let sums = Mat4::from_cols(sums[0], sums[1], sums[2], sums[3]).transpose();
+        let closing = self.closing(press, s_m);
+        let normal = sums.x_axis * closing;
+        let away = (sums.y_axis + sums.w_axis * rise) * closing;
+        let around = sums.z_axis * closing;
+        press.frame.in_body(normal, away * cosine - around * sine, away * sine + around * cosine)
+    }
+
+    /// 1, falling to 0 in the last step of the table before the boundary, which is no node.
+    #[inline(always)]
+    fn closing(&self, press: &Press, s_m: Vec4) -> Vec4 {
+        ((Vec4::splat(press.boundary_m) - s_m) * press.closing_per_m).clamp(Vec4::ZERO, Vec4::ONE)
+    }
+
+    /// Share of the contact's motion that arrives at an arc whatever the direction.
+    fn share(&self, press: &Press, arc_m: f32) -> f64 {
+        let s_m = (arc_m - self.contact_radius_m).max(0.0);
+        let (nodes, parts) = self.profiles.grid.places(Vec4::splat(s_m));
+        let share = self.profiles.at::<1>(nodes[0], parts.x, [0.0; 4]).x;
+        f64::from(share * self.closing(press, Vec4::splat(s_m)).x)
     }
 }
 
-#[inline(always)]
-fn dot(a: &[f32; 3], b: &[f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+fn rise_per_m(shape: &ContactShape) -> f32 {
+    (1.0 / shape.contact_radius_m().max(NO_RADIUS_M)) as f32
 }

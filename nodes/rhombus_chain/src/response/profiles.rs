@@ -1,79 +1,104 @@
-//! The shapes of all chains at once, from a table: `g_p(s) = max(1 - (1 - q^(s/h)) / (1 - q^m), 0)`.
+//! What all chains together do at a distance from the contact, from a table that is filled for each contact.
 //!
-//! What depends on the place, `1 - q^(s/h)`, is tabulated once; what depends on the depth, `1 - q^m`, is a factor.
+//! The distance decides every shape `g_p` and every ramp `w_p`, so the sums over the chains are functions of the distance
+//! alone. There are fewer nodes than vertices, and a vertex looks up one row, whatever the number of chains.
+
+use glam::Vec4;
 
 use crate::contact_shape::ContactShape;
 
-use super::MOST_CHAINS;
+use super::grid::Grid;
+use super::{MOST_CHAINS, MOST_HARMONICS};
 
-/// Steps of the table for each length in which the steepest chain falls to 1/e: off by at most 1.3e-4 of the value there.
-const STEPS_PER_FALL: f64 = 32.0;
-/// Steps of the table, at least and at most.
-const STEPS: (f64, f64) = (64.0, 65_536.0);
+/// Waves around the contact: 1, cos, sin, cos 2 phi, sin 2 phi.
+pub(crate) const MOST_WAVES: usize = 1 + 2 * MOST_HARMONICS;
 
-/// `1 - q^(s/h)` of each chain at equidistant `s`, linear in between.
+/// Sums over the chains at one distance. For the constant: `sum g_p a_p0`, 0, 0, `sum g_p w_p c_p0`; for each wave:
+/// `sum g_p w_p` times its coefficients along the normal, away and around, and 0.
+pub(crate) type Row = [Vec4; MOST_WAVES];
+
+/// The tables.
 #[derive(Clone, Debug)]
 pub(crate) struct Profiles {
+    pub(crate) grid: Grid,
     chains: usize,
-    steps: usize,
-    steps_per_m: f32,
-    /// (steps + 2) x P.
-    drops: Vec<f32>,
-    /// One over the arc in which what has a direction rises from its zero at the contact, for each chain.
-    pub(crate) ramps_per_m: [f32; MOST_CHAINS],
-    /// `1 / (1 - q^m)`, for each chain.
-    scales: [f32; MOST_CHAINS],
+    /// `1 - q^(s/h)` and `w` at `s + r_c`, for each node and chain.
+    drops: Vec<[f32; 2]>,
+    rows: Vec<Row>,
+}
+
+/// One chain at the present contact: `1 / (1 - q^m)`, and its coefficients as a row has them.
+#[derive(Clone, Copy, Default)]
+struct ChainHere {
+    scale: f32,
+    constant: [Vec4; 2],
+    waves: [Vec4; MOST_WAVES - 1],
 }
 
 impl Profiles {
-    /// Those of `shape`, for arcs up to `longest_arc_m`.
+    /// For the chains of `shape` and arcs up to `longest_arc_m`.
     pub(crate) fn new(shape: &ContactShape, longest_arc_m: f64) -> Self {
         let chains = shape.chains().min(MOST_CHAINS);
-        let reach_m = shape.longest_chain_m().min(longest_arc_m);
-        let wanted = STEPS_PER_FALL * reach_m / shape.steepest_fall_m();
-        let steps = wanted.clamp(STEPS.0, STEPS.1) as usize;
-        let step_m = reach_m / steps as f64;
-        let mut drops = Vec::with_capacity((steps + 2) * chains);
-        for step in 0..steps + 2 {
-            drops.extend((0..chains).map(|chain| shape.drop(chain, step as f64 * step_m) as f32));
+        let grid = Grid::new(shape.finest_m(), shape.longest_chain_m().min(longest_arc_m));
+        let mut drops = Vec::with_capacity(grid.nodes() * chains);
+        for node in 0..grid.nodes() {
+            let s_m = grid.distance_m(node);
+            drops.extend((0..chains).map(|chain| {
+                let ramp = (s_m + shape.contact_radius_m()) * shape.ramp_per_m(chain);
+                [shape.drop(chain, s_m) as f32, ramp.min(1.0) as f32]
+            }));
         }
-        let mut profiles = Self {
-            chains,
-            steps,
-            steps_per_m: (1.0 / step_m) as f32,
-            drops,
-            ramps_per_m: [0.0; MOST_CHAINS],
-            scales: [1.0; MOST_CHAINS],
-        };
-        for (chain, ramp) in profiles.ramps_per_m.iter_mut().enumerate().take(chains) {
-            *ramp = shape.ramp_per_m(chain) as f32;
-        }
-        profiles.set_depth(shape);
-        profiles
+        Self { grid, chains, drops, rows: vec![Row::default(); grid.nodes()] }
     }
 
-    /// Takes over how far the boundary of `shape` reaches at its present depth.
-    pub(crate) fn set_depth(&mut self, shape: &ContactShape) {
-        for (chain, scale) in self.scales.iter_mut().enumerate().take(self.chains) {
-            *scale = shape.drop_scale(chain) as f32;
-        }
-    }
-
-    /// `g_p` of every chain at `s`, m.
+    /// Fills the rows for a contact with the depth of `shape` and `coefficients`, P x (2 + 6 H). Real-time safe.
     #[inline(always)]
-    pub(crate) fn at(&self, s_m: f32, shapes: &mut [f32; MOST_CHAINS]) {
-        let steps = (s_m * self.steps_per_m).min(self.steps as f32);
-        let (step, part) = (steps as usize, steps.fract());
-        let begin = step * self.chains;
-        // Two rows: there are steps + 2, and step <= steps.
-        let rows = &self.drops[begin..begin + 2 * self.chains];
-        let (low, high) = rows.split_at(self.chains);
-        for ((shape, (low, high)), scale) in shapes.iter_mut().zip(low.iter().zip(high)).zip(&self.scales) {
-            *shape = (1.0 - (low + part * (high - low)) * scale).max(0.0);
+    pub(crate) fn fill<const WAVES: usize>(&mut self, shape: &ContactShape, coefficients: &[f32]) {
+        let mut chains = [ChainHere::default(); MOST_CHAINS];
+        let per_chain = 3 * WAVES - 1;
+        for (chain, (here, numbers)) in
+            chains.iter_mut().zip(coefficients.chunks_exact(per_chain)).enumerate()
+        {
+            let number = |place: usize| numbers.get(place).copied().unwrap_or_default();
+            here.scale = shape.drop_scale(chain) as f32;
+            here.constant = [Vec4::new(number(0), 0.0, 0.0, 0.0), Vec4::new(0.0, 0.0, 0.0, number(WAVES))];
+            for (k, wave) in here.waves.iter_mut().enumerate().take(WAVES - 1) {
+                *wave = Vec4::new(number(1 + k), number(WAVES + 1 + k), number(2 * WAVES + k), 0.0);
+            }
         }
+        for (row, drops) in self.rows.iter_mut().zip(self.drops.chunks_exact(self.chains)) {
+            let mut sums = [Vec4::ZERO; WAVES];
+            for (here, [drop, ramp]) in chains.iter().zip(drops) {
+                let g = (1.0 - drop * here.scale).max(0.0);
+                if g > 0.0 {
+                    let directed = g * ramp;
+                    sums[0] += here.constant[0] * g + here.constant[1] * directed;
+                    for (sum, wave) in sums[1..].iter_mut().zip(&here.waves) {
+                        *sum += *wave * directed;
+                    }
+                }
+            }
+            row[..WAVES].copy_from_slice(&sums);
+        }
+        // The contact moves by exactly DL, whatever the last digit of the shares' sum.
+        if let Some(contact) = self.rows.first_mut() {
+            contact[0].x = 1.0;
+        }
+    }
+
+    /// Sum of a row, `part` of the way from `node` to the next, times 1 and the other `waves`.
+    #[inline(always)]
+    pub(crate) fn at<const WAVES: usize>(&self, node: u32, part: f32, waves: [f32; MOST_WAVES - 1]) -> Vec4 {
+        let [low, high, ..] = &self.rows[node as usize..] else { return Vec4::ZERO };
+        let (mut before, mut after) = (low[0], high[0]);
+        for k in 1..WAVES {
+            before += low[k] * waves[k - 1];
+            after += high[k] * waves[k - 1];
+        }
+        before + (after - before) * part
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
-        size_of_val(self.drops.as_slice())
+        size_of_val(self.drops.as_slice()) + size_of_val(self.rows.as_slice())
     }
 }
