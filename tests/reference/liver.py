@@ -43,10 +43,10 @@ class Mesh:
         self._corners, self._base = body.faces[parent], body.base()
 
     def assemble(self, young, poisson) -> contact.Patches:
-        """Model and factor; afterwards `touched[site][radius]` are the nodes of each disc."""
-        model = elasticity.assemble(self.nodes, self.tets, young, poisson)
+        """Model and factor; afterwards `model`, the nodes `held`, and `touched[site][radius]`, the nodes of each disc."""
+        self.model = model = elasticity.assemble(self.nodes, self.tets, young, poisson)
         faces6 = contact.surface_nodes(model, self.surface)
-        held = contact.fixed_nodes(faces6, self._corners, self._base)
+        self.held = held = contact.fixed_nodes(faces6, self._corners, self._base)
         self.touched = [[contact.touched_nodes(model, self.surface, faces6, d) for d in of_site] for of_site in self.discs]
         self.size = {"elements": len(self.tets), "dofs": 3 * len(model.nodes)}
         return contact.Patches(model, held, self.normals, [of_site[0] for of_site in self.touched])

@@ -9,7 +9,8 @@ HERE = Path(__file__).parent
 ROUNDING = 2.0**-12
 LIVER = ["liver_r5.npz", "liver_r2.npz", "liver_nu.npz", "liver_inclusion.npz", "liver_two.npz"]
 BODIES = ["block_r5.npz", "wedge_r5.npz"]
-RESULTS = LIVER + BODIES
+NONLINEAR = "liver_nonlinear.npz"
+RESULTS = LIVER + BODIES + [NONLINEAR]
 TETS = [500, 1000, 3116]
 
 
@@ -68,7 +69,7 @@ def test_sites_are_vertices_with_the_normals_of_the_mesh(result):
     assert np.allclose(result["normal"], normals[result["site_vertex"]], atol=1e-12)
 
 
-@pytest.mark.parametrize("name", LIVER)
+@pytest.mark.parametrize("name", [*LIVER, NONLINEAR])
 def test_the_base_of_the_liver_is_its_underside(name):
     result = read(f"results/{name}")
     normals = angle_weighted_normals(result["vertices"], result["faces"])
@@ -187,6 +188,27 @@ def test_two_discs_need_less_force_each_than_alone_where_one_pulls_the_other_dow
         sinks = -(alone["displacement"][single, result["site_vertex"][s, 1]].astype(float) @ result["normal"][s, 1])
         if sinks > 0.05:
             assert result["stiffness"][s, 0] < alone["stiffness"][single]
+
+
+def test_large_strain_starts_at_the_linear_solution_and_leaves_it_steadily_with_depth():
+    result = read(f"results/{NONLINEAR}")
+    assert result["held_out"].all() and result["depth"].shape == result["stiffness"].shape == result["linear_stiffness"].shape
+    assert result["linear_displacement"].shape == (3, *result["vertices"].shape)
+    alone = read("results/liver_r5.npz")
+    assert np.array_equal(result["linear_site_vertex"], alone["site_vertex"][alone["held_out"] == 1][:3])
+    for k, vertex in enumerate(result["linear_site_vertex"]):
+        mine = result["site_vertex"] == vertex
+        depth, linear = result["depth"][mine], result["linear_displacement"][k].astype(float)
+        assert depth[0] == 0.001 and depth[-1] >= 0.005 and (np.diff(depth) > 0).all()
+        field = result["displacement"][mine].astype(float)
+        away = np.linalg.norm(field - linear, axis=(1, 2)) / np.linalg.norm(linear)
+        assert away[0] < 0.05 and (np.diff(away) > 0).all()
+        force = result["stiffness"][mine] * depth
+        assert (np.diff(force) > 0).all()
+        assert force[0] / depth[0] == pytest.approx(result["linear_stiffness"][mine][0], rel=0.05)
+        # The mesh is coarser than that of liver_r5.npz, the body the same.
+        fine = alone["stiffness"][alone["site_vertex"] == vertex][0]
+        assert result["linear_stiffness"][mine][0] == pytest.approx(fine, rel=0.01)
 
 
 @pytest.mark.parametrize("vertices", TETS)
