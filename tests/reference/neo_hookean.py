@@ -14,9 +14,13 @@ import numpy as np
 import pypardiso
 import scipy.sparse as sparse
 import skfem
+from pypardiso.pardiso_wrapper import PyPardisoError
 
 import elasticity
 from contact import frame
+
+
+NOT_POSITIVE = -4  # Pardiso: a pivot of Cholesky's factor is not
 
 
 class Inverted(Exception):
@@ -132,9 +136,9 @@ class Press:
         forces[self._touched] = forces[self._touched] @ self._frame.T
         return forces.ravel()
 
-    def _step(self, u: np.ndarray, forces: np.ndarray, pushed: float, stiffer: float = 0.0) -> np.ndarray:
-        """Newton's step (N, 3) where the touched nodes go `pushed` along the normal; `stiffer`: what is added to the
-        diagonal, as a fraction of it."""
+    def _step(self, u: np.ndarray, forces: np.ndarray, pushed: float, stiffer: float = 0.0) -> np.ndarray | None:
+        """Newton's step (N, 3) where the touched nodes go `pushed` along the normal; None where the matrix is not positive
+        definite. `stiffer`: what is added to the diagonal, as a fraction of it."""
         local = self._body.element_stiffness(u)
         local[self._turned] = self._frames @ local[self._turned] @ self._frames.transpose(0, 2, 1)
         found = np.zeros(3 * len(u))
@@ -145,12 +149,17 @@ class Press:
         diagonal = self._matrix.indptr[:-1]  # first of the upper half of each row
         self._matrix.data[diagonal] += stiffer * np.abs(self._matrix.data[diagonal])
         if self._solver is None:
-            self._solver = pypardiso.PyPardisoSolver(mtype=-2)
+            self._solver = pypardiso.PyPardisoSolver(mtype=2)
             self._solver._check_A(self._matrix)
-            self._solver.set_phase(13)
-        else:
-            self._solver.set_phase(23)  # same pattern: the order of elimination is known
-        found[self._free] = self._solver._call_pardiso(self._matrix, right).ravel()
+            self._solver.set_phase(11)  # the order of elimination, the same for all
+            self._solver._call_pardiso(self._matrix, right)
+        self._solver.set_phase(23)
+        try:
+            found[self._free] = self._solver._call_pardiso(self._matrix, right).ravel()
+        except PyPardisoError as error:
+            if error.value == NOT_POSITIVE:
+                return None
+            raise
         step = found.reshape(-1, 3)
         step[self._touched] = step[self._touched] @ self._frame
         return step
@@ -160,17 +169,22 @@ class Press:
             self._solver.free_memory(everything=True)
 
     def _equilibrium(self, depth: float) -> State:
-        """One load step by Newton's method, halving steps that do not lessen what is left; raises Inverted if it fails."""
+        """One load step by Newton's method: steps are halved until they lower the energy; where the matrix is not positive
+        definite it is stiffened until it is. Raises Inverted if it fails."""
         u = self.state.displacement
-        u = u + self._step(u, self._forces(u), self.state.depth - depth)
+        ahead = self._step(u, self._forces(u), self.state.depth - depth)
+        if ahead is None:
+            raise Inverted
+        u = u + ahead
         forces = self._forces(u)
         energy, stiffer = self._body.energy(u), 0.0
         for _ in range(self.ITERATIONS):
             left, force = np.linalg.norm(forces[self._free]), -forces[self._pushed].sum()
             if left <= self.TOLERANCE * abs(force):
                 return State(depth, u, energy, force, left / abs(force))
-            found = self._lower(u, self._step(u, forces, 0.0, stiffer), energy)
-            if found is None:  # not towards less energy: the matrix is not positive definite here
+            step = self._step(u, forces, 0.0, stiffer)
+            found = None if step is None else self._lower(u, step, energy)
+            if found is None:
                 stiffer = max(4 * stiffer, 1e-3)
                 continue
             u, energy = found

@@ -4,15 +4,17 @@
 
 The first three held-out sites of liver_r5.npz. The mesh is coarser than there, so the linear solution on the same mesh goes with
 it. Checks that are part of the run: 0.1 mm against the linear solution, what is left of the forces in equilibrium, and the
-work of the force from depth to depth against the energy gained."""
+work of the force down to each depth against the energy there."""
 
 import argparse
+from dataclasses import asdict
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 import sites
 from liver import HERE, POISSON, RADII, RESULTS, YOUNG, Mesh, kept, make_liver, rounded, write
-from neo_hookean import Body, Inverted, Press
+from neo_hookean import Body, Inverted, Press, State
 from surface import Surface
 from tables import percent, write_csv
 
@@ -33,26 +35,24 @@ def press(body: Surface, vertex: int) -> dict:
     patches.close()
     count = len(body.vertices)
     disc = Press(Body(mesh.nodes, mesh.tets, YOUNG, POISSON), mesh.held, mesh.touched[0][0], mesh.normals[0])
-    last = disc.state
-    small = disc.to(SMALL)
-    found = {name: [] for name in ("depth", "force", "residual", "energy", "work", "displacement")}
+
+    def to(depth: float) -> State:
+        disc.state = State(**kept(f"nonlinear_{vertex}_{1e3 * depth:.1f}", lambda: asdict(disc.to(depth))))
+        return disc.state
+
+    small, reached = to(SMALL), []
     for depth in DEPTHS:
         try:
-            # One more equilibrium half-way, for the work of the force by Simpson's rule.
-            middle, here = disc.to((last.depth + depth) / 2), disc.to(depth)
+            reached.append(to(depth))
         except Inverted:
             print(f"site {vertex}: no equilibrium found beyond {1e3 * disc.state.depth:.2f} mm", flush=True)
             break
-        found["depth"].append(depth)
-        found["force"].append(here.force)
-        found["residual"].append(max(middle.residual, here.residual))
-        found["energy"].append(here.energy - last.energy)
-        found["work"].append((depth - last.depth) / 6 * (last.force + 4 * middle.force + here.force))
-        found["displacement"].append(rounded(here.displacement[:count] / depth))
-        print(f"site {vertex}: {1e3 * depth:.1f} mm, {here.force:.4f} N, {here.force / depth:.2f} N/m", flush=True)
-        last = here
     disc.close()
-    return {k: np.array(v) for k, v in found.items()} | {
+    found = {name: np.array([getattr(s, name) for s in reached]) for name in ("depth", "force", "energy", "residual")}
+    curve = CubicSpline([0, SMALL, *found["depth"]], [0, small.force, *found["force"]])
+    return found | {
+        "displacement": np.array([rounded(s.displacement[:count] / s.depth) for s in reached]),
+        "work": np.array([curve.integrate(0, depth) for depth in found["depth"]]),
         "linear_stiffness": linear.stiffness[0],
         "linear_displacement": rounded(linear.displacement[:count]),
         "small_stiffness": small.force / SMALL / linear.stiffness[0] - 1,
@@ -63,7 +63,7 @@ def press(body: Surface, vertex: int) -> dict:
 
 def run(body: Surface) -> None:
     chosen = sites.choose(body, sites.COUNT)[sites.held_out(sites.COUNT)][:3]
-    done = [kept(f"nonlinear_{vertex}", lambda: press(body, vertex)) for vertex in chosen]
+    done = [press(body, int(vertex)) for vertex in chosen]
     each = [len(d["depth"]) for d in done]
     depth, force = (np.concatenate([d[name] for d in done]) for name in ("depth", "force"))
     write(
