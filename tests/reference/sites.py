@@ -17,8 +17,9 @@ COUNT, EVERY, FIRST = 48, 6, 4
 
 
 def base(surface: Surface) -> np.ndarray:
-    """Vertices of the flat underside, held fixed: normal z < -0.7. (V,) bool."""
-    return surface.vertex_normals()[:, 2] < -0.7
+    """Vertices held fixed: a body's own choice where it has one (`held`), else the flat underside, normal z < -0.7. (V,) bool."""
+    held = getattr(surface, "held", None)
+    return surface.vertex_normals()[:, 2] < -0.7 if held is None else held
 
 
 def candidates(surface: Surface) -> np.ndarray:

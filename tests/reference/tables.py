@@ -7,6 +7,12 @@ import re
 from pathlib import Path
 
 HERE = Path(__file__).parent
+TABLES = {
+    "validation": "validation.csv",
+    "convergence": "liver_convergence.csv",
+    "bodies": "bodies_convergence.csv",
+    "nonlinear": "liver_nonlinear.csv",
+}
 
 
 def percent(fraction: float) -> str:
@@ -37,7 +43,7 @@ def markdown(path: Path) -> str:
 if __name__ == "__main__":
     readme = HERE / "README.md"
     text = readme.read_text()
-    for marker, name in (("validation", "validation.csv"), ("convergence", "liver_convergence.csv")):
+    for marker, name in TABLES.items():
         if not (HERE / "results" / name).exists():
             continue
         table = markdown(HERE / "results" / name)

@@ -7,7 +7,10 @@ import pytest
 
 HERE = Path(__file__).parent
 ROUNDING = 2.0**-12
-RESULTS = ["liver_r5.npz", "liver_r2.npz", "liver_nu.npz", "liver_inclusion.npz", "liver_two.npz"]
+LIVER = ["liver_r5.npz", "liver_r2.npz", "liver_nu.npz", "liver_inclusion.npz", "liver_two.npz"]
+BODIES = ["block_r5.npz", "wedge_r5.npz"]
+NONLINEAR = "liver_nonlinear.npz"
+RESULTS = LIVER + BODIES + [NONLINEAR]
 TETS = [500, 1000, 3116]
 
 
@@ -60,11 +63,51 @@ def test_arrays_have_the_shapes_and_types_of_the_contract(result):
     assert all(np.isfinite(value).all() for value in result.values())
 
 
-def test_sites_are_vertices_with_the_normals_of_the_mesh_and_the_base_is_the_underside(result):
+def test_sites_are_vertices_with_the_normals_of_the_mesh(result):
     normals = angle_weighted_normals(result["vertices"], result["faces"])
     assert np.array_equal(result["point"], result["vertices"][result["site_vertex"]])
     assert np.allclose(result["normal"], normals[result["site_vertex"]], atol=1e-12)
+
+
+@pytest.mark.parametrize("name", [*LIVER, NONLINEAR])
+def test_the_base_of_the_liver_is_its_underside(name):
+    result = read(f"results/{name}")
+    normals = angle_weighted_normals(result["vertices"], result["faces"])
     assert np.array_equal(result["fixed"] == 1, normals[:, 2] < -0.7)
+
+
+def test_the_block_is_held_at_its_lowest_face_and_the_wedge_in_the_middle_of_its_underside():
+    block, wedge = (read(f"results/{name}") for name in BODIES)
+    height = block["vertices"][:, 2]
+    assert np.array_equal(block["fixed"] == 1, height < height.min() + 1e-9)
+    radius = np.linalg.norm(wedge["vertices"][:, :2] / [0.0775, 0.0475], axis=1)
+    assert np.array_equal(wedge["fixed"] == 1, (radius <= 0.6) & (wedge["vertices"][:, 2] < 0))
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_the_other_bodies_have_eight_sites_all_held_out_and_clear_of_the_base(name):
+    result = read(f"results/{name}")
+    assert len(set(result["site_vertex"])) == 8 and result["held_out"].all()
+    base = result["vertices"][result["fixed"] == 1]
+    assert np.linalg.norm(result["point"][:, None] - base, axis=2).min() >= 0.010
+
+
+def test_the_wedge_is_the_committed_mesh():
+    lines = (HERE / "meshes" / "wedge.obj").read_text().splitlines()
+    vertices = np.array([line.split()[1:] for line in lines if line.startswith("v ")], dtype=float)
+    faces = np.array([line.split()[1:] for line in lines if line.startswith("f ")], dtype=int) - 1
+    result = read("results/wedge_r5.npz")
+    assert np.array_equal(vertices, result["vertices"]) and np.array_equal(faces, result["faces"])
+
+
+def test_the_thin_edge_gives_way_more_than_the_middle():
+    """The edge bends besides being indented: less than 60 % of a half-space's 2 E r / (1 - nu^2), the middle more than it."""
+    result = read("results/wedge_r5.npz")
+    ratio = result["stiffness"] * (1 - result["poisson"] ** 2) / (2 * result["young"] * result["contact_radius"])
+    radius = np.linalg.norm(result["point"][:, :2] / [0.0775, 0.0475], axis=1)
+    assert (radius > 0.95).sum() >= 2 and (ratio[radius > 0.95] < 0.6).all()
+    upper = (radius < 0.6) & (result["normal"][:, 2] > 0.5)
+    assert upper.sum() >= 2 and (ratio[upper] > 1).all()
 
 
 def test_touched_vertices_follow_the_disc_and_fixed_ones_do_not_move(result):
@@ -145,6 +188,27 @@ def test_two_discs_need_less_force_each_than_alone_where_one_pulls_the_other_dow
         sinks = -(alone["displacement"][single, result["site_vertex"][s, 1]].astype(float) @ result["normal"][s, 1])
         if sinks > 0.05:
             assert result["stiffness"][s, 0] < alone["stiffness"][single]
+
+
+def test_large_strain_starts_at_the_linear_solution_and_leaves_it_steadily_with_depth():
+    result = read(f"results/{NONLINEAR}")
+    assert result["held_out"].all() and result["depth"].shape == result["stiffness"].shape == result["linear_stiffness"].shape
+    assert result["linear_displacement"].shape == (3, *result["vertices"].shape)
+    alone = read("results/liver_r5.npz")
+    assert np.array_equal(result["linear_site_vertex"], alone["site_vertex"][alone["held_out"] == 1][:3])
+    for k, vertex in enumerate(result["linear_site_vertex"]):
+        mine = result["site_vertex"] == vertex
+        depth, linear = result["depth"][mine], result["linear_displacement"][k].astype(float)
+        assert depth[0] == 0.001 and depth[-1] >= 0.005 and (np.diff(depth) > 0).all()
+        field = result["displacement"][mine].astype(float)
+        away = np.linalg.norm(field - linear, axis=(1, 2)) / np.linalg.norm(linear)
+        assert away[0] < 0.05 and (np.diff(away) > 0).all()
+        force = result["stiffness"][mine] * depth
+        assert (np.diff(force) > 0).all()
+        assert force[0] / depth[0] == pytest.approx(result["linear_stiffness"][mine][0], rel=0.05)
+        # The mesh is coarser than that of liver_r5.npz, the body the same.
+        fine = alone["stiffness"][alone["site_vertex"] == vertex][0]
+        assert result["linear_stiffness"][mine][0] == pytest.approx(fine, rel=0.01)
 
 
 @pytest.mark.parametrize("vertices", TETS)

@@ -45,16 +45,16 @@ class Mesh:
         self._corners, self._held = body.faces[parent], held
 
     def assemble(self, young, poisson) -> contact.Patches:
-        """Model and factor; afterwards `touched[site][radius]` are the nodes of each disc. `young`: see elasticity.assemble.
+        """Model and factor; afterwards the nodes `fixed` and `touched[site][radius]`, those of each disc. `young`: see elasticity.assemble.
 
         SiteError: a disc on what is held, or two on the same place."""
         model = elasticity.assemble(self.nodes, self.tets, young, poisson)
         faces6 = contact.surface_nodes(model, self.surface)
-        held = contact.fixed_nodes(faces6, self._corners, self._held)
+        self.fixed = contact.fixed_nodes(faces6, self._corners, self._held)
         self.touched = [[contact.touched_nodes(model, self.surface, faces6, d) for d in of_site] for of_site in self.discs]
-        self._check(held)
+        self._check(self.fixed)
         self.size = {"elements": len(self.tets), "dofs": 3 * len(model.nodes)}
-        return contact.Patches(model, held, self.normals, [of_site[0] for of_site in self.touched])
+        return contact.Patches(model, self.fixed, self.normals, [of_site[0] for of_site in self.touched])
 
     def _check(self, held: np.ndarray) -> None:
         taken = {}
