@@ -14,6 +14,7 @@
 //! | `stiffness` | S or S, K | N/m | force on the hand for each metre of depth |
 //! | `displacement` | S, V, 3 | 1 | m for each m of depth, body frame |
 //! | `held_out` | S | | 1: never used to calibrate, only to judge |
+//! | `depth` | S | m | only where the answer is not linear: the depth that a solution is of, divided by it like all others |
 
 pub(crate) mod arrays;
 
@@ -54,6 +55,8 @@ pub struct ReferenceSite {
     pub displacement: Vec<DVec3>,
     /// Never used to calibrate.
     pub held_out: bool,
+    /// The depth that it is of, m, where it is not in proportion to the depth; force and displacement are divided by it.
+    pub depth_m: Option<f64>,
 }
 
 /// Where a solution is pressed, and how hard the body answers.
@@ -127,15 +130,15 @@ impl Reference {
         let poisson = arrays.shaped("poisson", &[s])?;
         let displacement = vectors(&arrays.shaped("displacement", &[s, v, 3])?);
         let held_out = flags(&arrays.shaped("held_out", &[s])?);
+        let depth = if arrays.has("depth") { Some(arrays.shaped("depth", &[s])?) } else { None };
         if let Some(place) = site_vertex.values.iter().position(|x| !(0.0..v as f64).contains(x)) {
             let value = site_vertex.values[place];
             let problem =
                 format!("entry {place} is {value}; accepted: a vertex, 0 to {}", v.saturating_sub(1));
             return Err(arrays.error("site_vertex", problem));
         }
-        for (name, values) in
-            [("stiffness", &stiffness), ("contact_radius", &contact_radius), ("young", &young)]
-        {
+        let positive = [("stiffness", &stiffness), ("contact_radius", &contact_radius), ("young", &young)];
+        for (name, values) in positive.into_iter().chain(depth.as_ref().map(|depth| ("depth", depth))) {
             if let Some(place) = values.iter().position(|x| *x <= 0.0) {
                 let problem = format!("entry {place} is {}; accepted: greater than 0", values[place]);
                 return Err(arrays.error(name, problem));
@@ -159,6 +162,7 @@ impl Reference {
                 poisson: poisson[site],
                 displacement: displacement[site * v..(site + 1) * v].to_vec(),
                 held_out: held_out[site],
+                depth_m: depth.as_ref().map(|depth| depth[site]),
             })
             .collect();
         Ok(Self { file: path.display().to_string(), vertices, faces, fixed, sites })

@@ -1,6 +1,8 @@
 //! `rhombus report`: what the model is worth, measured here and now, beside its peers.
 
 mod beyond;
+mod bodies;
+mod calibrated;
 mod clockwork;
 mod closed_loop;
 mod depth;
@@ -44,6 +46,7 @@ use rhombus_cli::output;
 const SECTIONS: &[Section] = &[
     half_space::SECTION,
     liver::SECTION,
+    calibrated::SECTION,
     run_time::SECTION,
     depth::SECTION,
     profiles::SECTION,

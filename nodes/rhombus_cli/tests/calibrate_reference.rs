@@ -31,6 +31,7 @@ struct Arrays {
     stiffness: Vec<f64>,
     displacement: Vec<f32>,
     held_out: Vec<u8>,
+    depth: Option<Vec<f64>>,
 }
 
 fn chain(decay_m: f64, weight: f64) -> ChainParameters {
@@ -74,6 +75,7 @@ fn arrays() -> Arrays {
         stiffness: Vec::new(),
         displacement: Vec::new(),
         held_out: Vec::new(),
+        depth: None,
     };
     let mut field = SurfaceField::new(&body, &tissue);
     for site in 0..SITES {
@@ -145,6 +147,9 @@ impl Arrays {
         }
         entry(&mut zip, "displacement", &[s, v, 3], &self.displacement);
         entry(&mut zip, "held_out", &[s], &self.held_out);
+        if let Some(depth) = &self.depth {
+            entry(&mut zip, "depth", &[s], depth);
+        }
         zip.finish().expect("a whole archive");
     }
 
@@ -246,6 +251,22 @@ fn the_written_scene_has_the_map_beside_it_and_gives_the_errors_it_says() {
     assert!(!folder.path("out.yaml").exists(), "no parameter file without its map");
     folder.success(&[&command[..], &["--map", "off"]].concat());
     assert!(!std::fs::read_to_string(folder.path("out.yaml")).expect("a file").contains("stiffness_map"));
+}
+
+#[test]
+fn a_reference_may_say_of_which_depth_each_solution_is() {
+    let mut deep = arrays();
+    assert!(deep.reference(&Folder::new()).sites.iter().all(|site| site.depth_m.is_none()));
+    let depths: Vec<f64> = (1..=SITES).map(|site| 1e-4 * site as f64).collect();
+    deep.depth = Some(depths.clone());
+    let read: Vec<f64> =
+        deep.reference(&Folder::new()).sites.iter().filter_map(|site| site.depth_m).collect();
+    assert_eq!(read, depths);
+    let folder = Folder::new();
+    deep.depth = Some(vec![0.0; SITES]);
+    deep.write(&folder.path("flat.npz"));
+    let error = Reference::read(&folder.path("flat.npz")).expect_err("no depth").to_string();
+    assert!(error.contains("depth: entry 0 is 0; accepted: greater than 0"), "{error}");
 }
 
 #[test]

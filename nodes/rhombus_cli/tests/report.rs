@@ -137,6 +137,21 @@ fn a_missing_reference_is_named_with_the_command_that_makes_it() {
 }
 
 #[test]
+fn a_missing_calibrated_body_is_named_with_the_command_that_makes_it() {
+    let folder = Folder::new();
+    let run = folder.run(&["report", "--out", "out", "--only", "calibrated", "--reference", "nowhere"]);
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    let markdown = read(&folder, "report.md").replace('\\', "");
+    for words in ["nowhere/bodies/liver.body is missing", "rhombus calibrate --body MESH"] {
+        assert!(markdown.contains(words), "{words}: {markdown}");
+    }
+    // Every demand is there all the same.
+    let open =
+        markdown.lines().filter(|line| line.contains("calibrated liver") && line.contains("not judged"));
+    assert!(open.count() >= 6, "{markdown}");
+}
+
+#[test]
 fn the_command_line_is_checked_before_anything_is_computed() {
     let folder = Folder::new();
     let refusal = folder.refusal(&["report", "--out", "out", "--only", "weather"]);

@@ -35,6 +35,11 @@ impl Arrays {
         ReferenceError { file: self.file.clone(), array: Some(array), problem: problem.into() }
     }
 
+    /// Whether there is an array of this name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.archive.index_for_name(&format!("{name}.npy")).is_some()
+    }
+
     /// Reads an array of numbers or booleans. Every integer a reference has is exact as f64.
     pub(crate) fn read(&mut self, name: &'static str) -> Result<Array, ReferenceError> {
         let bytes = self.bytes(name)?;

@@ -149,16 +149,21 @@ fn against_poisson(context: &Context) -> anyhow::Result<Exhibit> {
 /// The same chains with all springs that much stiffer.
 fn rescaled(calibrated: &Calibrated, scale: f64) -> anyhow::Result<Calibrated> {
     let tissue = &calibrated.tissue;
-    let mut chains: Vec<_> = tissue.law().chains().iter().map(|chain| *chain.parameters()).collect();
-    for chain in &mut chains {
-        chain.normal_stiffness_n_per_m *= scale;
-        chain.tangential_stiffness_n_per_m *= scale;
-    }
-    let law = ContactLaw::new(tissue.law().formulation(), &chains)?;
+    let law = stiffer(tissue.law(), scale)?;
     Ok(Calibrated {
         tissue: Tissue::new(law, *tissue.surface(), tissue.probe_radius_m(), tissue.grasp_lateral())?,
         constant: calibrated.constant.clone(),
         mapped: calibrated.mapped.clone(),
         ..*calibrated
     })
+}
+
+/// The same law with all springs that much stiffer.
+pub(crate) fn stiffer(law: &ContactLaw, scale: f64) -> anyhow::Result<ContactLaw> {
+    let mut chains: Vec<_> = law.chains().iter().map(|chain| *chain.parameters()).collect();
+    for chain in &mut chains {
+        chain.normal_stiffness_n_per_m *= scale;
+        chain.tangential_stiffness_n_per_m *= scale;
+    }
+    Ok(ContactLaw::new(law.formulation(), &chains)?)
 }

@@ -52,6 +52,8 @@ pub(crate) enum Line {
     Solid,
     /// By a dashed line.
     Dashed,
+    /// Every three are the corners of a filled triangle.
+    Faces,
 }
 
 /// How the points of a series are marked.

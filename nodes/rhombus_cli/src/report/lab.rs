@@ -1,4 +1,4 @@
-//! The liver's reference solutions and what is calibrated on them, each read or fitted once for a whole report.
+//! Reference solutions, what is calibrated on them and what was calibrated before, each read or fitted once for a whole report.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -11,6 +11,7 @@ use rhombus_chain::{Body, StiffnessMap, SurfaceMesh, Tissue};
 use rhombus_cli::calibrate::sites;
 use rhombus_cli::reference::Reference;
 
+use super::bodies::CalibratedBody;
 use super::half_space;
 use super::progress::Progress;
 
@@ -28,6 +29,7 @@ pub(crate) struct Lab {
     folder: PathBuf,
     references: RefCell<BTreeMap<&'static str, Rc<Reference>>>,
     fits: RefCell<BTreeMap<FitKey, Rc<Calibrated>>>,
+    bodies: RefCell<BTreeMap<&'static str, Rc<CalibratedBody>>>,
 }
 
 /// Chains, and the regional stiffness map that goes with them, from the sites of a reference that are not held out.
@@ -45,9 +47,9 @@ pub(crate) struct Calibrated {
 }
 
 impl Lab {
-    /// For a folder with `results/*.npz` and `tets/*.npz`.
+    /// For a folder with `results/*.npz`, `tets/*.npz` and `bodies/*`.
     pub(crate) fn new(folder: PathBuf) -> Self {
-        Self { folder, references: RefCell::default(), fits: RefCell::default() }
+        Self { folder, references: RefCell::default(), fits: RefCell::default(), bodies: RefCell::default() }
     }
 
     /// A reference by the stem of its file.
@@ -61,13 +63,26 @@ impl Lab {
         let path = self.folder.join("results").join(format!("{name}.npz"));
         ensure!(
             path.is_file(),
-            "{} is missing; make it with: python tests/reference/liver.py {}",
+            "{} is missing; make it with: python tests/reference/{}",
             path.display(),
             command_for(name)
         );
         let reference = Rc::new(Reference::read(&path)?);
         self.references.borrow_mut().insert(name, Rc::clone(&reference));
         Ok(reference)
+    }
+
+    /// A calibrated body by the stem of its files.
+    ///
+    /// # Errors
+    /// Those of [`CalibratedBody::read`].
+    pub(crate) fn body(&self, name: &'static str) -> Result<Rc<CalibratedBody>> {
+        if let Some(known) = self.bodies.borrow().get(name) {
+            return Ok(Rc::clone(known));
+        }
+        let body = Rc::new(CalibratedBody::read(&self.folder.join("bodies"), name)?);
+        self.bodies.borrow_mut().insert(name, Rc::clone(&body));
+        Ok(body)
     }
 
     /// The file of tetrahedra inside the liver of so many vertices.
@@ -142,12 +157,15 @@ impl Calibrated {
     }
 }
 
-/// The part of tests/reference/liver.py that makes a file.
+/// The program of tests/reference that makes a file.
 fn command_for(name: &str) -> &str {
     match name {
-        "liver_nu" => "nu",
-        "liver_inclusion" => "inclusion",
-        "liver_two" => "two",
-        _ => "sites",
+        "liver_nu" => "liver.py nu",
+        "liver_inclusion" => "liver.py inclusion",
+        "liver_two" => "liver.py two",
+        "liver_nonlinear" => "nonlinear.py",
+        "block_r5" => "bodies.py block",
+        "wedge_r5" => "bodies.py wedge",
+        _ => "liver.py sites",
     }
 }

@@ -3,7 +3,7 @@
 use super::figure::{Axis, Figure, Marker, Series};
 use super::lab::{Calibrated, MOST_CHAINS};
 use super::section::{Ask, Context, Exhibit, Section, SectionOutput, Verdict};
-use super::subject::{Model, Place, Subject};
+use super::subject::{self, Model};
 use super::table::Table;
 use super::truth::{self, Distance, Part, Score, TruthSite};
 
@@ -70,15 +70,7 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
 
 /// The model at every site, by a session's own calls.
 pub(crate) fn judge(calibrated: &Calibrated, mapped: bool, sites: &[TruthSite], depth_m: f64) -> Score {
-    let body = calibrated.body(mapped);
-    let mut model = Model::new(body, &calibrated.tissue);
-    let mut field = vec![glam::DVec3::ZERO; body.mesh().vertices().len()];
-    let distances = sites.iter().map(|site| {
-        let place = Place { point: site.point, normal: site.normal, vertex: site.vertex };
-        let force_n = model.settled(&place, depth_m, &mut field);
-        (site.site, site.distance(depth_m, force_n, &field))
-    });
-    Score(distances.collect())
+    subject::judge(&mut Model::new(calibrated.body(mapped), &calibrated.tissue), sites, depth_m)
 }
 
 fn best_chains(rows: &[Row], radius: &str) -> usize {

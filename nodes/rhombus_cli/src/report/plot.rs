@@ -17,6 +17,14 @@ const PLOT_HEIGHT: u32 = 440;
 const LEGEND_LINE: u32 = 22;
 const LEGEND_COLUMNS: u32 = 2;
 const TEXT: u32 = 15;
+/// Around the plot, and what its labels take.
+const MARGIN: u32 = 12;
+const MARGIN_RIGHT: u32 = 24;
+const X_LABELS: u32 = 48;
+const Y_LABELS: u32 = 72;
+/// Width by height of what the axes enclose, for a figure with one scale.
+pub(crate) const ASPECT: f64 =
+    (WIDTH - MARGIN - MARGIN_RIGHT - Y_LABELS) as f64 / (PLOT_HEIGHT - 2 * MARGIN - X_LABELS) as f64;
 const LINE: u32 = 2 * FINE;
 
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ticks, Ticks>>;
@@ -44,10 +52,10 @@ fn draw_plot(area: &Area, figure: &Figure) -> Result<(), DrawingError> {
     let x = Ticks::new(&figure.x, drawable().flat_map(|p| with_ends(p.x, p.x_spread)));
     let y = Ticks::new(&figure.y, drawable().flat_map(|p| with_ends(p.y, p.y_spread)));
     let mut chart = ChartBuilder::on(area)
-        .margin(12 * FINE)
-        .margin_right(24 * FINE)
-        .x_label_area_size(48 * FINE)
-        .y_label_area_size(72 * FINE)
+        .margin(MARGIN * FINE)
+        .margin_right(MARGIN_RIGHT * FINE)
+        .x_label_area_size(X_LABELS * FINE)
+        .y_label_area_size(Y_LABELS * FINE)
         .build_cartesian_2d(x.clone(), y.clone())?;
     let ink = ("sans-serif", TEXT * FINE).into_font().color(&INK);
     chart
@@ -92,6 +100,14 @@ fn draw_series(
                     colour.stroke_width(LINE),
                 ))?;
             }
+            Line::Faces => {
+                let faces = run.chunks_exact(3).map(|corners| {
+                    let corners: Vec<(f64, f64)> =
+                        corners.iter().map(|corner| (corner.x, corner.y)).collect();
+                    Polygon::new(corners, colour.filled())
+                });
+                chart.draw_series(faces)?;
+            }
         }
     }
     for point in series.points.iter().filter(inside) {
@@ -114,13 +130,17 @@ fn draw_legend(area: &Area, shown: &[&Series]) -> Result<(), DrawingError> {
         let left = 30 + index % LEGEND_COLUMNS * (WIDTH - 30) / LEGEND_COLUMNS;
         let middle = index / LEGEND_COLUMNS * LEGEND_LINE + LEGEND_LINE / 2;
         let dashes: &[(u32, u32)] = match series.line {
-            Line::None => &[],
+            Line::None | Line::Faces => &[],
             Line::Solid => &[(0, 28)],
             Line::Dashed => &[(0, 6), (11, 17), (22, 28)],
         };
         for (from, to) in dashes {
             let ends = [fine((left + from, middle)), fine((left + to, middle))];
             area.draw(&PathElement::new(ends, colour(series).stroke_width(LINE)))?;
+        }
+        if series.line == Line::Faces {
+            let corners = [fine((left + 4, middle - 6)), fine((left + 24, middle + 6))];
+            area.draw(&Rectangle::new(corners, colour(series).filled()))?;
         }
         if let Some(mark) = mark(fine((left + 14, middle)), series) {
             area.draw(&mark)?;

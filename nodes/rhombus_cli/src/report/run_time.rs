@@ -1,12 +1,15 @@
 //! Error against run time: the model and every peer on the same job, in the same run.
 
+mod beside;
 mod cases;
 mod exhibits;
+pub(super) mod stage;
 
 use super::half_space::name;
 use super::lab::MOST_CHAINS;
 use super::section::{Ask, Context, Mode, Section, SectionOutput, Verdict};
-use cases::{Case, Entry, Variety};
+use cases::{Entry, Variety};
+use stage::Case;
 
 pub(crate) const SECTION: Section = Section {
     name: "run_time",
@@ -20,6 +23,7 @@ pub(crate) const SECTION: Section = Section {
             what: "less near-field error than condensed FEM of 1st order, same mesh (3116)",
             asked: "less",
         },
+        Ask { what: DOMINATED, asked: "none, at a contact that moves" },
     ],
     run,
 };
@@ -42,8 +46,10 @@ const FASTER: [(&str, &str, Variety); 3] = [
         Variety::Short,
     ),
 ];
+/// On each error's page.
+const DOMINATED: &str = "peers both faster and closer than the calibrated body (3116)";
 /// The body's own size.
-const VERTICES: usize = 3116;
+pub(super) const VERTICES: usize = 3116;
 const REFERENCE: &str = "liver_r5";
 
 fn run(context: &Context) -> anyhow::Result<SectionOutput> {
@@ -68,6 +74,7 @@ fn run(context: &Context) -> anyhow::Result<SectionOutput> {
             .to_owned(),
     ];
     text.extend(times_as_fast(&entries));
+    text.extend(beside::second_order(&entries));
     Ok(SectionOutput { text, verdicts: verdicts(context.mode, &entries), exhibits: exhibits::all(&entries) })
 }
 
@@ -104,6 +111,7 @@ fn verdicts(mode: Mode, entries: &[Entry]) -> Vec<Verdict> {
             _ => missing(ask.what),
         });
     }
+    verdicts.push(beside::verdict(DOMINATED, entries));
     verdicts
 }
 

@@ -4,6 +4,8 @@ use glam::DVec3;
 use rhombus_chain::{Body, Impression, Interaction, SurfaceField, Tissue};
 use rhombus_peers::Peer;
 
+use super::truth::{Score, TruthSite};
+
 /// Where a contact is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
@@ -83,6 +85,11 @@ impl Subject for Model<'_> {
 
     fn settled(&mut self, place: &Place, depth_m: f64, field: &mut [DVec3]) -> f64 {
         self.interaction.reset();
+        let centre_m = self.tissue.probe_radius_m();
+        if depth_m > centre_m {
+            // A hand comes from outside. A contact that began with the centre inside might begin on the other side of an edge.
+            self.force(place, 0.5 * centre_m);
+        }
         let force_n = self.moved(place, depth_m);
         field.fill(DVec3::ZERO);
         for (vertex, displacement) in self.field.vertices().iter().zip(self.field.displacements()) {
@@ -95,6 +102,23 @@ impl Subject for Model<'_> {
         let body = self.body.mesh().memory_bytes() + self.body.index().memory_bytes();
         let map = self.body.stiffness().map_or(0, rhombus_chain::StiffnessMap::memory_bytes);
         (body + map + self.field.memory_bytes()) as u64
+    }
+}
+
+/// Anyone at every site, at one depth.
+pub(crate) fn judge(subject: &mut dyn Subject, sites: &[TruthSite], depth_m: f64) -> Score {
+    let mut field = Vec::new();
+    let distances = sites.iter().map(|site| {
+        field.resize(site.displacement.len(), DVec3::ZERO);
+        let force_n = subject.settled(&Place::from(site), depth_m, &mut field);
+        (site.site, site.distance(depth_m, force_n, &field))
+    });
+    Score(distances.collect())
+}
+
+impl From<&TruthSite> for Place {
+    fn from(site: &TruthSite) -> Self {
+        Self { point: site.point, normal: site.normal, vertex: site.vertex }
     }
 }
 

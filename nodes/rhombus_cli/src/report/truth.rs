@@ -6,6 +6,7 @@ use rhombus_cli::calibrate::errors::{self, NEAR_M};
 use rhombus_cli::reference::Reference;
 
 /// What a body answers at one site, at unit depth.
+#[derive(Clone)]
 pub(crate) struct TruthSite {
     /// Number of the site in the reference.
     pub(crate) site: usize,

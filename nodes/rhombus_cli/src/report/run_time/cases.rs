@@ -5,25 +5,23 @@ use std::time::Instant;
 
 use anyhow::Result;
 use glam::DVec3;
-use rhombus_benches::walk_on_surface;
-use rhombus_chain::{Body, StiffnessMap, SurfaceMesh};
-use rhombus_peers::{Job, Material, PeerKind, SetupError, TetMesh};
-use scene::{BodyKind, generate};
+use rhombus_chain::{Body, StiffnessMap};
+use rhombus_peers::{PeerKind, SetupError, TetMesh};
 
+use super::stage::{Case, Stage};
 use super::{REFERENCE, VERTICES};
-use crate::report::clockwork::{FEWEST, Times, times};
+use crate::report::bodies::{CalibratedBody, Kept};
 use crate::report::lab::{Calibrated, MOST_CHAINS, SHORT_REACH_M};
 use crate::report::section::{Context, Mode};
-use crate::report::subject::{Model, Other, Place, Subject};
-use crate::report::truth::{self, Score, TruthSite};
+use crate::report::subject::{Model, Other};
 
 /// A method on a mesh, and what became of it.
 pub(super) struct Entry {
-    /// The peer's name, or `rhombus chains`.
+    /// The peer's name, `rhombus chains`, or `calibrated body` with what was taken away.
     pub(super) method: &'static str,
     /// The publication a peer follows.
     pub(super) citation: &'static str,
-    /// Parallel chains and how they were calibrated; `None` for a peer.
+    /// Parallel chains and how they were calibrated; `None` for a peer and for what could not be read.
     pub(super) chains: Option<(usize, Variety)>,
     /// The number of chains that a user would choose, by the sites used: it stands in the verdicts.
     pub(super) chosen: bool,
@@ -42,9 +40,12 @@ pub(super) enum Variety {
     Map,
     /// With the map, and a surface that ends [`SHORT_REACH_M`] from the contact.
     Short,
+    /// By directions, for each vertex.
+    Directional,
 }
 
 impl Variety {
+    /// What is calibrated in this run.
     const ALL: [Variety; 3] = [Variety::Constant, Variety::Map, Variety::Short];
 
     /// In tables and legends.
@@ -53,48 +54,22 @@ impl Variety {
             Variety::Constant => "constant".to_owned(),
             Variety::Map => "map".to_owned(),
             Variety::Short => format!("map, reach {:.0} mm", 1e3 * SHORT_REACH_M),
+            Variety::Directional => "map of the calibrated body".to_owned(),
         }
     }
 }
 
-/// Numbers of a method on a mesh.
-pub(super) struct Case {
-    /// Force and field, contact moves between the calls.
-    pub(super) moved: Times,
-    /// Force and field, the depth alone changes.
-    pub(super) stayed: Times,
-    /// Force alone, contact moves; the model can, a peer has no such call.
-    pub(super) force: Option<Times>,
-    /// At the held-out sites.
-    pub(super) score: Score,
-    /// From mesh and parameters to the first query, s.
-    pub(super) setup_s: f64,
-    /// What it keeps, bytes.
-    pub(super) bytes: u64,
-}
-
 /// The model's name in tables.
 pub(super) const MODEL: &str = "rhombus chains";
-/// How deep sites are pressed when methods are timed, m; a share of it more and less.
-const DEPTH_M: f64 = 0.005;
-/// How deep sites are pressed when methods are judged, m: within the small strains that the references mean, and where the
-/// peers with a nonlinear force are matched.
-const JUDGED_DEPTH_M: f64 = 0.001;
-/// Way of the contact between two queries, m.
-const STRIDE_M: f64 = 0.003;
-/// Queries of the model up to 5000 vertices; on larger meshes in proportion fewer, and peers get the fewest that make a median.
-const MODEL_REPEATS: usize = 300;
+/// A calibrated body's.
+pub(super) const CALIBRATED: &str = "calibrated body";
+/// The same without its body modes.
+pub(super) const WITHOUT_MODES: &str = "calibrated body without modes";
+/// Its file.
+const BODY: &str = "liver";
 /// A peer's whole case may be expected to take this long, s; in full mode that holds beyond the body's own size.
 const QUICK_S: f64 = 5.0;
 const FULL_S: f64 = 300.0;
-
-/// A mesh with everything that is asked on it.
-struct Stage {
-    body: Body,
-    fixed: Vec<bool>,
-    sites: Vec<TruthSite>,
-    walk: Vec<Place>,
-}
 
 pub(super) fn measure(context: &Context, model_sizes: &[usize], peer_sizes: &[usize]) -> Result<Vec<Entry>> {
     let fits = |short: bool| {
@@ -127,6 +102,10 @@ pub(super) fn measure(context: &Context, model_sizes: &[usize], peer_sizes: &[us
                     });
                 }
             }
+        }
+        if vertices == VERTICES {
+            context.progress.step("calibrated body");
+            entries.extend(directional(context, &stage));
         }
         if peer_sizes.contains(&vertices) {
             let volume =
@@ -184,57 +163,6 @@ impl Spent {
     }
 }
 
-impl Stage {
-    fn new(context: &Context, surface: &Body, vertices: usize) -> Result<Self> {
-        let reference = context.lab.reference(REFERENCE)?;
-        let shape = generate::body(BodyKind::Liver, vertices);
-        let body = Body::new(SurfaceMesh::new(shape.vertices, shape.triangles)?);
-        let mesh = body.mesh();
-        // The flat underside, by the rule of the reference solutions.
-        let fixed: Vec<bool> = mesh.vertex_normals().iter().map(|normal| normal.z < -0.7).collect();
-        let sites = truth::on(mesh, &reference, surface, &reference.held_out());
-        let walk = walk_on_surface(mesh, 2 * MODEL_REPEATS, STRIDE_M)
-            .into_iter()
-            .filter_map(|(point, normal)| {
-                let (at, _) = body.index().closest(mesh, point, f64::INFINITY)?;
-                let corners = mesh.triangles()[at.face as usize];
-                let apart = |corner: &u32| mesh.vertices()[*corner as usize].distance(point);
-                let vertex = corners.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
-                (!fixed[vertex as usize]).then_some(Place { point, normal, vertex })
-            })
-            .collect();
-        Ok(Self { body, fixed, sites, walk })
-    }
-
-    fn job<'a>(&'a self, volume: Option<&'a TetMesh>, memory_limit_bytes: u64) -> Job<'a> {
-        Job {
-            surface: self.body.mesh(),
-            volume,
-            fixed: volume.map_or(&self.fixed, |volume| &volume.fixed),
-            material: Material { young_pa: 10e3, poisson: 0.45 },
-            contact_radius_m: DEPTH_M,
-            memory_limit_bytes,
-        }
-    }
-
-    /// Times and judges a subject that is set up.
-    fn case(&self, subject: &mut dyn Subject, repeats: usize, setup_s: f64) -> Case {
-        let place = |repeat: usize| &self.walk[repeat % self.walk.len()];
-        let depth = |repeat: usize| DEPTH_M * (1.0 - 0.01 * (repeat % 10) as f64);
-        let moved = times(repeats, |repeat| subject.moved(place(repeat), depth(repeat)));
-        let last = place(repeats.saturating_sub(1));
-        let stayed = times(repeats, |repeat| subject.stayed(last, depth(repeat)));
-        let mut field = vec![DVec3::ZERO; self.body.mesh().vertices().len()];
-        let distances = self.sites.iter().map(|site| {
-            let place = Place { point: site.point, normal: site.normal, vertex: site.vertex };
-            let force_n = subject.settled(&place, JUDGED_DEPTH_M, &mut field);
-            (site.site, site.distance(JUDGED_DEPTH_M, force_n, &field))
-        });
-        let score = Score(distances.collect());
-        Case { moved, stayed, force: None, score, setup_s, bytes: subject.bytes() }
-    }
-}
-
 /// The chains on a mesh that they may not have been calibrated on: the map is carried over by closest points.
 fn model(stage: &Stage, calibrated: &Calibrated, mapped: bool) -> Result<Case> {
     let start = Instant::now();
@@ -250,10 +178,32 @@ fn model(stage: &Stage, calibrated: &Calibrated, mapped: bool) -> Result<Case> {
     }
     let mut model = Model::new(&body, &calibrated.tissue);
     let setup_s = start.elapsed().as_secs_f64();
-    let repeats = (MODEL_REPEATS * 5000 / body.mesh().vertices().len()).clamp(FEWEST, MODEL_REPEATS);
-    let mut case = stage.case(&mut model, repeats, setup_s);
-    case.force = Some(times(repeats, |repeat| model.force(&stage.walk[repeat % stage.walk.len()], DEPTH_M)));
-    Ok(case)
+    Ok(stage.model(&mut model, setup_s))
+}
+
+/// The calibrated body, whole and without its modes.
+fn directional(context: &Context, stage: &Stage) -> [Entry; 2] {
+    let read = context.lab.body(BODY).and_then(|body| {
+        let reference = context.lab.reference(REFERENCE)?;
+        body.sites(&reference, &reference.held_out())?;
+        Ok(body)
+    });
+    let entry = |method, kept| {
+        let case = |calibrated: &CalibratedBody| -> Result<Case> {
+            let start = Instant::now();
+            let body = calibrated.body(kept)?;
+            let mut model = Model::new(&body, &calibrated.tissue);
+            let setup_s = start.elapsed().as_secs_f64();
+            Ok(stage.model(&mut model, setup_s))
+        };
+        let outcome = match &read {
+            Ok(calibrated) => case(calibrated).map_err(|error| format!("{error:#}")),
+            Err(error) => Err(format!("{error:#}")),
+        };
+        let chains = read.as_ref().map(|body| (body.header.chains.len(), Variety::Directional)).ok();
+        Entry { method, citation: "", chains, chosen: false, vertices: VERTICES, outcome }
+    };
+    [entry(CALIBRATED, Kept::All), entry(WITHOUT_MODES, Kept::WithoutModes)]
 }
 
 fn peer(stage: &Stage, kind: &PeerKind, volume: Option<&TetMesh>) -> Result<Case, String> {
@@ -262,7 +212,7 @@ fn peer(stage: &Stage, kind: &PeerKind, volume: Option<&TetMesh>) -> Result<Case
     let peer = (kind.setup)(&stage.job(volume, limit_bytes)).map_err(|error| refusal(error, limit_bytes))?;
     let setup_s = start.elapsed().as_secs_f64();
     let mut other = Other::new(peer, stage.body.mesh().vertices().len());
-    Ok(stage.case(&mut other, FEWEST, setup_s))
+    Ok(stage.peer(&mut other, setup_s))
 }
 
 /// Why a peer that would take too long to measure could not be set up anyway. It is given no memory at all, so that whoever

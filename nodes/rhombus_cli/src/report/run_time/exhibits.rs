@@ -1,7 +1,8 @@
 //! Figures and tables of error against run time.
 
 use super::VERTICES;
-use super::cases::{Case, Entry, Variety};
+use super::cases::{CALIBRATED, Entry, Variety};
+use super::stage::Case;
 use crate::report::figure::{Axis, Figure, Line, Marker, Point, Series};
 use crate::report::half_space::name;
 use crate::report::lab::{MOST_CHAINS, SHORT_REACH_M};
@@ -10,14 +11,14 @@ use crate::report::table::{Cell, Table};
 use crate::report::truth::Part;
 
 /// An error and how it is called.
-struct Quantity {
+pub(super) struct Quantity {
     name: &'static str,
-    title: &'static str,
+    pub(super) title: &'static str,
     axis: &'static str,
-    part: Part,
+    pub(super) part: Part,
 }
 
-const QUANTITIES: [Quantity; 4] = [
+pub(super) const QUANTITIES: [Quantity; 4] = [
     Quantity {
         name: "run_time_near",
         title: "Surface within 30 mm of the contact",
@@ -101,7 +102,7 @@ fn error_against_time(quantity: &Quantity, entries: &[Entry]) -> Exhibit {
         caption: format!(
             "Medians over the held-out sites, and over the repeats with bars from quartile to quartile; down and to the left is better. A \
              curve of the chains runs from 1 to {MOST_CHAINS} chains on one mesh, full line with the stiffness map (crosses: surface ends {:.0} mm from the contact), dashed with constant \
-             stiffness; a curve of a peer runs over its meshes, coarse to fine. Contact moves between queries.",
+             stiffness; a curve of a peer runs over its meshes, coarse to fine. The calibrated body is one mesh, with its body modes and without. Contact moves between queries.",
             1e3 * SHORT_REACH_M
         ),
         figure: Some(Figure {
@@ -124,6 +125,7 @@ fn series(entries: &[Entry], point: impl Fn(&Case) -> Point) -> Vec<Series> {
     let mut all: Vec<Series> = Vec::new();
     for (entry, case) in measured(entries) {
         let (family, name) = match entry.chains {
+            Some((_, Variety::Directional)) => (CALIBRATED.to_owned(), entry.method.to_owned()),
             Some((_, variety)) => {
                 let family = format!("chains, {} vertices", entry.vertices);
                 let name = format!("{family}, {}", variety.name());
@@ -144,12 +146,16 @@ fn series(entries: &[Entry], point: impl Fn(&Case) -> Point) -> Vec<Series> {
             Some((_, Variety::Map)) => (Line::Solid, Marker::Circle),
             Some((_, Variety::Short)) => (Line::Solid, Marker::Cross),
             Some((_, Variety::Constant)) => (Line::Dashed, Marker::Ring),
+            Some((_, Variety::Directional)) => {
+                (Line::None, if variant == 0 { Marker::Triangle } else { Marker::Ring })
+            }
             None => (Line::Dashed, MARKERS[variant % MARKERS.len()]),
         };
         all.push(Series { name, points: vec![point(case)], line, marker, colour });
     }
-    // In the legend the chains come first.
-    all.sort_by_key(|series| !series.name.starts_with("chains, "));
+    // In the legend ours come first.
+    let ours = |name: &str| name.starts_with(CALIBRATED) || name.starts_with("chains, ");
+    all.sort_by_key(|series| (!ours(&series.name), !series.name.starts_with(CALIBRATED)));
     all
 }
 
@@ -207,7 +213,7 @@ fn time_against_size(entries: &[Entry]) -> Exhibit {
         title: "Time, setup and memory against the size of the mesh".to_owned(),
         caption: format!(
             "Median time of one query, contact moves. Setup is from mesh and parameters to the first query; the chains' leaves their calibration \
-             out, which the section on the liver has. A method that needs more memory than nine tenths of what is free is in the \
+             out, which the section on the liver has, and so does a calibrated body's. A method that needs more memory than nine tenths of what is free is in the \
              table with what it needs. The body of the verdicts has {VERTICES} vertices."
         ),
         figure: Some(Figure {
@@ -231,6 +237,9 @@ fn series_over_size(entries: &[Entry]) -> Vec<Series> {
                 let name = format!("{}, map", name(chains));
                 (name.clone(), name, Marker::Circle)
             }
+            Some((_, Variety::Directional)) if entry.method == CALIBRATED => {
+                (CALIBRATED.to_owned(), CALIBRATED.to_owned(), Marker::Triangle)
+            }
             Some(_) => continue,
             None => (entry.method.to_owned(), family(entry.method).to_owned(), Marker::Square),
         };
@@ -253,7 +262,7 @@ fn series_over_size(entries: &[Entry]) -> Vec<Series> {
 fn citations(entries: &[Entry]) -> Exhibit {
     let mut table = Table::new([("method", ""), ("publication", "")]);
     let mut seen: Vec<&str> = Vec::new();
-    for entry in entries.iter().filter(|entry| entry.chains.is_none()) {
+    for entry in entries.iter().filter(|entry| !entry.citation.is_empty()) {
         if !seen.contains(&entry.method) {
             seen.push(entry.method);
             table.push([entry.method.into(), entry.citation.into()]);
