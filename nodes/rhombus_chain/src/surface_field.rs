@@ -91,7 +91,7 @@ impl SurfaceField {
         if self.tissue != *tissue {
             self.retune(body, tissue);
         }
-        self.moved.clear();
+        let mut is_first = true;
         for (place, impression) in impressions.into_iter().enumerate() {
             if self.shape.set_depth(tissue.law(), impression.depth_m).is_err() {
                 continue;
@@ -103,12 +103,16 @@ impl SurfaceField {
                     self.displace(body, place, &impression);
                 }
             }
-            if place == 0 {
+            if is_first {
                 std::mem::swap(&mut self.moved, &mut self.own);
+                is_first = false;
             } else {
                 self.merged.set_sum(&self.moved, &self.own);
                 std::mem::swap(&mut self.moved, &mut self.merged);
             }
+        }
+        if is_first {
+            self.moved.clear();
         }
     }
 

@@ -8,8 +8,8 @@ use calibrated::{CHAINS, Pressed, calibrated, mesh, plain, press, tissue, turned
 use common::{Random, body, bumpy, icosphere, law, surface, tissue_with};
 use glam::{DMat3, DVec3};
 use rhombus_chain::{
-    Body, Impression, Interaction, Response, ResponseParts, Spread, StiffnessMap, SurfaceField, SurfaceMesh,
-    SurfaceParameters, SurfacePoint, Tissue,
+    ArcLengths, Body, ContactShape, Impression, Interaction, Response, ResponseParts, Spread, StiffnessMap,
+    SurfaceField, SurfaceMesh, SurfaceParameters, SurfacePoint, Tissue,
 };
 
 const PRESS_M: f64 = 0.005;
@@ -41,8 +41,8 @@ fn parallel_chains(mesh: &SurfaceMesh, tissue: &Tissue, depth_m: f64) -> Respons
 #[test]
 fn constant_coefficients_without_harmonics_and_modes_are_parallel_chains() {
     let classic = body(bumpy(4));
-    // Without a boundary what is left is the table's error; a boundary between two of its nodes is rounded off.
-    for (cutoff, contact_radius_m, allowed) in [(0.0, 0.0, 1e-4), (0.0, 0.006, 1e-4), (0.05, 0.006, 4e-3)] {
+    // What is left is the table's error; where a ramp or a boundary ends between two of its nodes, the corner is rounded off.
+    for (cutoff, contact_radius_m, allowed) in [(0.0, 0.009, 1e-4), (0.0, 0.0, 1e-3), (0.05, 0.009, 4e-3)] {
         let tissue =
             tissue_of(SurfaceParameters { cutoff, contact_radius_m, ..SurfaceParameters::default() });
         let mesh = classic.mesh();
@@ -66,7 +66,7 @@ fn without_modes_only_what_is_within_the_boundary_moves_and_it_grows_steadily_wi
     (parts.modes, parts.amplitudes, parts.mode_fields) = (0, Vec::new(), Vec::new());
     let body = calibrated(mesh.clone(), parts);
     let mut pressed = Pressed::new(&body, &tissue);
-    let mut shape = tissue.shape();
+    let mut shape = ContactShape::new(tissue.law(), tissue.surface()).expect("a valid surface");
     let at = at_vertex(&mesh, 77);
     let mut before: Option<Vec<DVec3>> = None;
     let mut touched = 0;
@@ -74,7 +74,7 @@ fn without_modes_only_what_is_within_the_boundary_moves_and_it_grows_steadily_wi
         let depth_m = 1e-5 * f64::from(step);
         let now = pressed.by(&[press(&mesh, at, depth_m)]);
         shape.set_depth(tissue.law(), depth_m).expect("a finite depth");
-        let mut arcs = rhombus_chain::ArcLengths::new(&mesh);
+        let mut arcs = ArcLengths::new(&mesh);
         arcs.solve(&mesh, at, shape.reach_m() * (1.0 - 1e-6));
         assert!(now.iter().filter(|moved| moved.length() > 0.0).count() <= arcs.iter().len() + 2);
         touched = arcs.iter().len();
@@ -170,15 +170,17 @@ fn the_force_is_that_of_the_stiffness_factor_and_its_gradient_whatever_the_respo
     let both = stiff.clone().with_response(response).expect("its own response");
     let tissue = tissue();
     let mut random = Random(34);
+    let mut across = 0;
     for _ in 0..300 {
         let at = random.surface_point(stiff.mesh());
-        let probe = stiff.mesh().position(at) + stiff.mesh().normal(at) * (0.001 + 0.004 * random.unit());
+        let probe = stiff.mesh().position(at) + stiff.mesh().normal(at) * (0.001 + 0.003 * random.unit());
         let step = |body: &Body| Interaction::new().step(body, &tissue, 0, probe, false).expect("an answer");
         let (one, other) = (step(&stiff), step(&both));
         assert_eq!(one, other);
-        let across = one.force_n - one.normal * one.force_n.dot(one.normal);
-        assert!(one.depth_m <= 0.0 || across.length() > 1e-6, "{across}");
+        let tangential_n = one.force_n - one.normal * one.force_n.dot(one.normal);
+        across += usize::from(tangential_n.length() > 1e-4);
     }
+    assert!(across > 200, "the gradient is felt: {across}");
 }
 
 #[test]

@@ -4,22 +4,24 @@
 //! linear function of its source, they are solved as they are elsewhere, and the two fade into one another. The table's
 //! memory grows with the square of the vertices, so a large body does without.
 
-use glam::DVec3;
+use glam::{DVec3, Vec4};
 
 use crate::arc_length::ArcLengths;
 use crate::mesh::{SurfaceMesh, SurfacePoint, length};
 
-use super::lanes::BLOCK;
+use super::lanes::{BLOCK, HALVES, LANES};
 
 /// Vertices up to which there is a table: 64 MB.
 const TABLE_UP_TO: usize = 4000;
 /// Longest edges of the contact's face within which arcs are solved, and from which on they are interpolated.
 const SOLVED: f64 = 1.5;
 const INTERPOLATED: f64 = 3.0;
-/// Longest edges by which a solved arc may be longer than the interpolated one: 8 % of what counts, and labels are off by 5 %.
-const MARGIN: f64 = 0.25;
+/// Longest edges by which a solved arc that counts may be longer than the interpolated one; labels are off by 5 %.
+const MARGIN: f64 = 0.5;
 /// Nothing leads there.
 const FAR: f32 = 1e9;
+/// In the place of a solved arc: the interpolated one holds.
+const INTERPOLATE: f32 = -1.0;
 
 /// Each vertex as a point of one of its faces.
 fn corners_of_vertices(mesh: &SurfaceMesh) -> Vec<SurfacePoint> {
@@ -32,15 +34,18 @@ fn corners_of_vertices(mesh: &SurfaceMesh) -> Vec<SurfacePoint> {
     places
 }
 
-/// Arc lengths from any point of one surface to its vertices, m.
+/// Arc lengths from any point of one surface to its vertices, m. In blocks of vertices; what is left of the last one is far.
 #[derive(Clone, Debug)]
 pub(crate) struct ArcTable {
     solver: ArcLengths,
     vertices: usize,
-    /// V x V, or nothing.
-    rows: Vec<f32>,
-    /// What was solved last, in whole blocks.
-    arcs: Vec<[f32; BLOCK]>,
+    /// For each vertex the arcs from it, block by block; or nothing.
+    rows: Vec<[f32; BLOCK]>,
+    /// Arcs that were solved last.
+    near: Vec<[f32; BLOCK]>,
+    /// First blocks in `rows` of the corners of the last source's face, and their shares.
+    corners: [usize; 3],
+    shares: [f32; 3],
     /// From where and up to what limit: a contact that stays is not solved again.
     solved: Option<(SurfacePoint, f64)>,
     longest_m: f64,
@@ -50,14 +55,15 @@ impl ArcTable {
     /// Works the table out for `mesh`.
     pub(crate) fn new(mesh: &SurfaceMesh) -> Self {
         let vertices = mesh.vertices().len();
+        let blocks = vertices.div_ceil(BLOCK);
         let mut solver = ArcLengths::new(mesh);
         let mut rows = Vec::new();
         if vertices <= TABLE_UP_TO {
-            rows.resize(vertices * vertices, FAR);
-            for (place, row) in corners_of_vertices(mesh).into_iter().zip(rows.chunks_exact_mut(vertices)) {
+            rows.resize(vertices * blocks, [FAR; BLOCK]);
+            for (place, row) in corners_of_vertices(mesh).into_iter().zip(rows.chunks_exact_mut(blocks)) {
                 solver.solve(mesh, place, f64::INFINITY);
                 for (other, arc_m) in solver.iter() {
-                    row[other as usize] = arc_m as f32;
+                    row.as_flattened_mut()[other as usize] = arc_m as f32;
                 }
             }
         }
@@ -69,10 +75,15 @@ impl ArcTable {
                 });
             8.0 * length(high - low)
         } else {
-            rows.iter().filter(|arc| **arc < FAR).fold(0.0, |most: f32, arc| most.max(*arc)).into()
+            rows.as_flattened()
+                .iter()
+                .filter(|arc| **arc < FAR)
+                .fold(0.0, |most: f32, arc| most.max(*arc))
+                .into()
         };
-        let arcs = vec![[FAR; BLOCK]; vertices.div_ceil(BLOCK)];
-        Self { solver, vertices, rows, arcs, solved: None, longest_m }
+        let near = vec![[if rows.is_empty() { FAR } else { INTERPOLATE }; BLOCK]; blocks];
+        let (corners, shares) = ([0; 3], [0.0; 3]);
+        Self { solver, vertices, rows, near, corners, shares, solved: None, longest_m }
     }
 
     /// Finds the arcs from `source` to all vertices; those not below `limit_m` may be anything not below it.
@@ -83,39 +94,55 @@ impl ArcTable {
             return;
         }
         self.solved = wanted;
-        let arcs = self.arcs.as_flattened_mut();
         if self.rows.is_empty() {
             self.solver.solve(mesh, source, limit_m);
-            arcs.fill(FAR);
+            let near = self.near.as_flattened_mut();
+            near.fill(FAR);
             for (vertex, arc_m) in self.solver.iter() {
-                arcs[vertex as usize] = arc_m as f32;
+                near[vertex as usize] = arc_m as f32;
             }
             return;
         }
-        let [a, b, c] = mesh.triangles()[source.face as usize].map(|corner| {
-            let begin = corner as usize * self.vertices;
-            &self.rows[begin..begin + self.vertices]
-        });
-        let [x, y, z] = source.barycentric.to_array().map(|share| share as f32);
-        for (((arc, a), b), c) in arcs.iter_mut().zip(a).zip(b).zip(c) {
-            *arc = x * a + y * b + z * c;
-        }
+        let blocks = self.near.len();
+        self.near.as_flattened_mut().fill(INTERPOLATE);
+        self.corners = mesh.triangles()[source.face as usize].map(|corner| corner as usize * blocks);
+        self.shares = source.barycentric.to_array().map(|share| share as f32);
         let corners = mesh.corners(source.face);
         let edge = (0..3).map(|k| length(corners[k] - corners[(k + 1) % 3])).fold(0.0, f64::max);
         let (solved, interpolated) = (SOLVED * edge, INTERPOLATED * edge);
-        // Solved arcs count where the interpolated ones are short, and then they are no longer, but for what labels are off.
         self.solver.solve(mesh, source, interpolated + MARGIN * edge);
         for (vertex, arc_m) in self.solver.iter() {
-            let arc = &mut arcs[vertex as usize];
-            let between = ((f64::from(*arc) - solved) / (interpolated - solved)).clamp(0.0, 1.0);
+            let (block, lane) = (vertex as usize / BLOCK, vertex as usize % BLOCK);
+            let [a, b, c] = self.corners.map(|corner| self.rows[corner + block][lane]);
+            let [x, y, z] = self.shares;
+            let from_table = f64::from(x * a + y * b + z * c);
+            let between = ((from_table - solved) / (interpolated - solved)).clamp(0.0, 1.0);
             let fade = between * between * (3.0 - 2.0 * between);
-            *arc = (arc_m + (f64::from(*arc) - arc_m) * fade) as f32;
+            self.near[block][lane] = (arc_m + (from_table - arc_m) * fade) as f32;
         }
     }
 
-    /// What was solved last: the arc to each vertex, m; what is left of the last block is far.
-    pub(crate) fn blocks(&self) -> &[[f32; BLOCK]] {
-        &self.arcs
+    /// The arcs to a block of vertices from where was solved last, m.
+    #[inline(always)]
+    pub(crate) fn block(&self, block: usize) -> [Vec4; HALVES] {
+        let near = &self.near[block];
+        let mut arcs = [Vec4::from_slice(&near[..LANES]), Vec4::from_slice(&near[LANES..])];
+        if !self.rows.is_empty() {
+            let [a, b, c] = self.corners.map(|corner| &self.rows[corner + block]);
+            let [x, y, z] = self.shares;
+            for (half, arcs) in arcs.iter_mut().enumerate() {
+                let four = |row: &[f32; BLOCK]| Vec4::from_slice(&row[half * LANES..]);
+                let from_table = four(a) * x + four(b) * y + four(c) * z;
+                *arcs = Vec4::select(arcs.cmpge(Vec4::ZERO), *arcs, from_table);
+            }
+        }
+        arcs
+    }
+
+    /// The arc to one vertex, m.
+    pub(crate) fn arc_m(&self, vertex: u32) -> f32 {
+        let (block, lane) = (vertex as usize / BLOCK, vertex as usize % BLOCK);
+        self.block(block)[lane / LANES][lane % LANES]
     }
 
     /// Number of vertices.
@@ -130,6 +157,6 @@ impl ArcTable {
 
     /// Bytes of memory it occupies.
     pub(crate) fn memory_bytes(&self) -> usize {
-        self.solver.memory_bytes() + size_of_val(self.rows.as_slice()) + size_of_val(self.arcs.as_slice())
+        self.solver.memory_bytes() + size_of_val(self.rows.as_slice()) + size_of_val(self.near.as_slice())
     }
 }

@@ -113,8 +113,7 @@ impl DirectionalField {
 
     /// `s` of a vertex at the last contact, m.
     pub(crate) fn s_m(&self, vertex: u32) -> f64 {
-        let arc_m = self.arcs.blocks().as_flattened().get(vertex as usize).copied().unwrap_or(f32::MAX);
-        f64::from((arc_m - self.contact_radius_m).max(0.0))
+        f64::from((self.arcs.arc_m(vertex) - self.contact_radius_m).max(0.0))
     }
 
     fn walk<const WAVES: usize>(
@@ -131,11 +130,12 @@ impl DirectionalField {
         displacements.resize(all, DVec3::ZERO);
         let has_modes = !self.amplitudes.is_empty();
         let mut count = 0;
-        for (block, (arcs, at)) in self.arcs.blocks().iter().zip(&self.positions).enumerate() {
+        for (block, at) in self.positions.iter().enumerate() {
+            let arcs_m = self.arcs.block(block);
             let modes = self.modes.at(block, &self.amplitudes);
             for half in 0..HALVES {
                 let begin = block * BLOCK + half * LANES;
-                let arc_m = Vec4::from_slice(&arcs[LANES * half..]);
+                let arc_m = arcs_m[half];
                 let within = arc_m.cmplt(Vec4::splat(press.reach_m)).bitmask();
                 let moving = if has_modes { WHOLE } else { within };
                 if moving == 0 {
