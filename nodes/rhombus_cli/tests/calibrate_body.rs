@@ -283,13 +283,16 @@ fn moved(text: &str, along: f64, from: usize) -> String {
     text.lines().map(line).collect()
 }
 
+/// Changed options, further ones, and what has to be said.
+type Case<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str], &'a [&'a str]);
+
 #[test]
 fn numbers_that_make_no_sense_are_refused() {
     let folder = folder().with("mm.obj", &sphere(1000.0)).with("held.txt", "3\n400\n");
     let shape = generate::body(BodyKind::Sphere, 400);
     let uncoloured = Obj { comment: "", vertices: &shape.vertices, triangles: &shape.triangles };
     std::fs::write(folder.path("plain.obj"), uncoloured.to_string()).expect("a file");
-    let cases: [(&[(&str, &str)], &[&str], &[&str]); 24] = [
+    let cases: [Case<'_>; 24] = [
         (&[("--young", "0")], &[], &["--young 0; accepted: a finite number greater than 0"]),
         (&[("--young", "-5")], &[], &["--young -5; accepted"]),
         (&[("--young", "inf")], &[], &["--young inf; accepted: a finite"]),

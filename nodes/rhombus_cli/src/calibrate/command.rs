@@ -26,12 +26,18 @@ use crate::reference::Reference;
 /// accepted by the model. Lengths in m, forces in N, pressures in Pa; a table says its units in its header.
 ///
 /// With --body a closed surface, a material and where it is held become a body that answers in every direction and at every
-/// place as elasticity says: rhombus calibrate --body organ.obj --young 10000 --poisson 0.45 --fixed facing:0,0,-1,0.7 -o organ.body
+/// place as elasticity says:
+///
+/// rhombus calibrate --body organ.obj --young 10000 --poisson 0.45 --fixed facing:0,0,-1,0.7 -o organ.body
+///
 /// Finite elements (second order) press it at --sites places and directional chains are fitted to them; how many, with how many
-/// harmonics and body modes, is decided by the error at sites that a fit did not use. Beside the body's file, organ.body, stand
-/// organ.yaml, a scene that uses it, and organ.svg, the error over the surface. An interrupted run goes on with the same command
-/// (organ.body.work). It takes minutes, and a Python with the packages of tests/reference/requirements.txt:
-/// python3 -m venv venv && venv/bin/pip install -r tests/reference/requirements.txt, then --python venv/bin/python
+/// harmonics and body modes, is decided by the error at sites that a fit did not use. Beside the body's file stand organ.yaml, a
+/// scene that uses it, and organ.svg, the error over the surface. An interrupted run goes on with the same command, in
+/// organ.body.work.
+///
+/// It takes minutes, and a Python (--python) with the packages of tests/reference/requirements.txt:
+///
+/// python3 -m venv venv && venv/bin/pip install -r tests/reference/requirements.txt
 #[derive(Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Calibrate {

@@ -56,6 +56,8 @@ impl Job<'_> {
             .collect();
         json!({
             "format": 1,
+            // Presses of another version may be others.
+            "rhombus": env!("CARGO_PKG_VERSION"),
             "vertices": self.mesh.vertices().len(),
             "faces": self.mesh.triangles().len(),
             "sites": self.sites.vertices,
