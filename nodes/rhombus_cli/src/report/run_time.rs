@@ -47,7 +47,7 @@ const FASTER: [(&str, &str, Variety); 3] = [
     ),
 ];
 /// On each error's page.
-const DOMINATED: &str = "peers both faster and closer than the calibrated body (3116)";
+const DOMINATED: &str = "peers both faster and closer than the calibrated body (3116), on any mesh";
 /// The body's own size.
 pub(super) const VERTICES: usize = 3116;
 const REFERENCE: &str = "liver_r5";

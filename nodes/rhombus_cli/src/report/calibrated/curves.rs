@@ -126,7 +126,7 @@ fn exhibit(varied: usize, rows: &[Row]) -> Exhibit {
             fixed.collect::<Vec<_>>().join(", ")
         ),
         figure: Some(Figure {
-            x: Axis::linear(axis).divided((across as f64).clamp(1.0, 8.0)),
+            x: Axis::linear(axis).divided((1.1 * across as f64).clamp(1.1, 8.0)),
             y: from_zero("relative L2 error [%]", &series),
             series,
         }),

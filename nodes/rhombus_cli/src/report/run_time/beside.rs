@@ -1,4 +1,4 @@
-//! The calibrated body beside every peer on its own mesh: who is both faster and closer.
+//! The calibrated body beside every peer: who is both faster and closer.
 
 use super::VERTICES;
 use super::cases::{CALIBRATED, Entry};
@@ -23,7 +23,8 @@ fn case<'a>(entries: &'a [Entry], method: &str) -> Option<&'a Case> {
     of_size(entries).find(|entry| entry.method == method)?.outcome.as_ref().ok()
 }
 
-/// Reached when no peer is both faster and closer, by any of the errors, at a contact that moves.
+/// Reached when no peer, on its own mesh or on a coarser or finer one, is both faster and closer, by any of the errors, at a
+/// contact that moves.
 pub(super) fn verdict(what: &'static str, entries: &[Entry]) -> Verdict {
     let own = match of_size(entries).find(|entry| entry.method == CALIBRATED).map(|entry| &entry.outcome) {
         Some(Ok(own)) => own,
@@ -33,16 +34,17 @@ pub(super) fn verdict(what: &'static str, entries: &[Entry]) -> Verdict {
     if let Some(missing) = SECOND_ORDER.into_iter().find(|name| case(entries, name).is_none()) {
         return Verdict::not_judged(what, format!("{missing} could not be measured, see the table"));
     }
-    let peers: Vec<(&str, &Case)> = of_size(entries)
+    let peers: Vec<(&Entry, &Case)> = entries
+        .iter()
         .filter(|entry| !entry.citation.is_empty())
-        .filter_map(|entry| entry.outcome.as_ref().ok().map(|case| (entry.method, case)))
+        .filter_map(|entry| entry.outcome.as_ref().ok().map(|case| (entry, case)))
         .collect();
     let [moved, stayed] = [MOVED, STAYED].map(|time| better(own, &peers, time));
     let said = |better: &[String]| {
         if better.is_empty() { "none".to_owned() } else { better.join("; ") }
     };
     let measured = format!(
-        "of {} peers {} ({:.1} us); at a contact that stays, where precomputed systems are at their best ({:.1} us): {}",
+        "of {} peers and meshes {} ({:.1} us); at a contact that stays, where precomputed systems are at their best ({:.1} us): {}",
         peers.len(),
         said(&moved),
         MOVED(own),
@@ -53,9 +55,9 @@ pub(super) fn verdict(what: &'static str, entries: &[Entry]) -> Verdict {
 }
 
 /// Peers that are faster and closer, with their time and the errors by which they are.
-fn better(own: &Case, peers: &[(&str, &Case)], time: Time) -> Vec<String> {
+fn better(own: &Case, peers: &[(&Entry, &Case)], time: Time) -> Vec<String> {
     let mut found = Vec::new();
-    for (name, peer) in peers.iter().filter(|(_, peer)| time(peer) <= time(own)) {
+    for (entry, peer) in peers.iter().filter(|(_, peer)| time(peer) <= time(own)) {
         let closer: Vec<String> = QUANTITIES
             .iter()
             .filter(|quantity| peer.score.median(quantity.part) <= own.score.median(quantity.part))
@@ -65,7 +67,8 @@ fn better(own: &Case, peers: &[(&str, &Case)], time: Time) -> Vec<String> {
             })
             .collect();
         if !closer.is_empty() {
-            found.push(format!("{name} ({:.1} us; {})", time(peer), closer.join(", ")));
+            let (name, vertices) = (entry.method, entry.vertices);
+            found.push(format!("{name}, {vertices} vertices ({:.1} us; {})", time(peer), closer.join(", ")));
         }
     }
     found
@@ -138,7 +141,8 @@ mod tests {
         // Closer but slower; it is faster where the contact stays, and that is said.
         let (outcome, words) = judged([patch([494.0, 20.0], [0.06, 0.06])]);
         assert_eq!(outcome, Outcome::Reached, "{words}");
-        assert!(words.starts_with("of 2 peers none") && words.contains("patch columns (20.0 us"), "{words}");
+        assert!(words.starts_with("of 2 peers and meshes none"), "{words}");
+        assert!(words.contains("patch columns, 3116 vertices (20.0 us"), "{words}");
         // Faster but farther.
         let far = entry("fast and far", [1.0, 1.0], [0.5, 0.5]);
         let (outcome, words) = judged([patch([494.0, 48.0], [0.06, 0.06]), far]);
@@ -148,6 +152,11 @@ mod tests {
         let (outcome, words) = judged([patch([79.0, 48.0], [0.06, 0.5])]);
         assert_eq!(outcome, Outcome::Missed, "{words}");
         assert!(words.contains("surface within 30 mm") && !words.contains("whole surface"), "{words}");
+        // On a coarser mesh.
+        let coarse = Entry { vertices: 500, ..entry("coarse", [29.0, 29.0], [0.2, 0.08]) };
+        let (outcome, words) = judged([patch([494.0, 48.0], [0.06, 0.06]), coarse]);
+        assert_eq!(outcome, Outcome::Missed, "{words}");
+        assert!(words.contains("coarse, 500 vertices (29.0 us"), "{words}");
     }
 
     #[test]
