@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use crate::arc_length::ArcLengths;
 use crate::body::Body;
-use crate::contact_law::elongation_m;
 use crate::contact_shape::{ContactShape, Displacement};
 use crate::expansion::Expansion;
 use crate::interaction::Impression;
@@ -235,9 +234,8 @@ impl SurfaceField {
     fn displace_calibrated(&mut self, body: &Body, response: &Response, impression: &Impression) {
         let Spreading::Directional(field) = &mut self.spreading else { return };
         let (mesh, shape, own) = (body.mesh(), &self.shape, &mut self.own);
-        let elongation_m = elongation_m(impression.depth_m);
         let Moved { vertices, displacements } = own;
-        field.solve(mesh, response, shape, impression, elongation_m, vertices, displacements);
+        field.solve(mesh, response, shape, impression, vertices, displacements);
         if let Some(expansion) = &mut self.expansion {
             expansion.begin();
             for (&vertex, displacement) in vertices.iter().zip(displacements.iter()) {

@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Mat4, Vec4};
 
+use crate::contact_law::elongation_m;
 use crate::contact_shape::ContactShape;
 use crate::interaction::Impression;
 use crate::mesh::SurfaceMesh;
@@ -82,14 +83,13 @@ impl DirectionalField {
     }
 
     /// Writes every vertex that `impression` moves, ascending, and its displacement, m, in the place of what was there. `shape` is
-    /// at its depth, which is `elongation_m` of the chains. Real-time safe with room for all vertices.
+    /// at its depth. Real-time safe with room for all vertices.
     pub(crate) fn solve(
         &mut self,
         mesh: &SurfaceMesh,
         response: &Response,
         shape: &ContactShape,
         impression: &Impression,
-        elongation_m: f64,
         vertices: &mut Vec<u32>,
         displacements: &mut Vec<DVec3>,
     ) {
@@ -98,7 +98,7 @@ impl DirectionalField {
         let boundary_m = shape.boundary_m() as f32;
         let press = Press {
             frame: ContactFrame::new(impression),
-            elongation_m,
+            elongation_m: elongation_m(impression.depth_m),
             lateral_m: impression.lateral_m,
             reach_m: shape.reach_m() as f32,
             boundary_m,
