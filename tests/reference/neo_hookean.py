@@ -187,10 +187,10 @@ class Press:
             step = self._step(u, forces, 0.0, stiffer)
             found = None if step is None else self._lower(u, step, energy)
             if found is None:
-                stiffer = max(4 * stiffer, 1e-3)
+                stiffer = max(4 * stiffer, 1e-2)
                 continue
             u, energy = found
-            forces, stiffer = self._forces(u), stiffer / 4 if stiffer > 1e-3 else 0.0
+            forces, stiffer = self._forces(u), stiffer / 4 if stiffer > 1e-2 else 0.0
         raise Inverted
 
     def _lower(self, u: np.ndarray, step: np.ndarray, energy: float):

@@ -1,10 +1,11 @@
 """Pressing deeper than small strain allows: three sites of the liver, neo-Hookean at large strain.
 
-    python nonlinear.py [--rhombus PROGRAM]       writes results/liver_nonlinear.npz and liver_nonlinear.csv
+    python nonlinear.py [--depths 5] [--rhombus PROGRAM]     writes results/liver_nonlinear.npz and liver_nonlinear.csv
 
 The first three held-out sites of liver_r5.npz. The mesh is coarser than there, so the linear solution on the same mesh goes with
-it. Checks that are part of the run: 0.1 mm against the linear solution, what is left of the forces in equilibrium, and the
-work of the force down to each depth against the energy there."""
+it. Equilibria are kept in `solutions/`, so that a longer series goes on where a shorter one ended. Checks that are part of the
+run: 0.1 mm against the linear solution, what is left of the forces in equilibrium, and the work of the force down to each
+depth against the energy there."""
 
 import argparse
 from dataclasses import asdict
@@ -30,7 +31,7 @@ def relative(found, exact) -> float:
     return float(np.linalg.norm(found - exact) / np.linalg.norm(exact))
 
 
-def press(body: Surface, vertex: int) -> dict:
+def press(body: Surface, vertex: int, depths) -> dict:
     """Arrays over the depths reached."""
     mesh = Mesh(body, sites.base(body), [vertex], RADII[:1], **MESH)
     patches = mesh.assemble(YOUNG, POISSON)
@@ -44,7 +45,7 @@ def press(body: Surface, vertex: int) -> dict:
         return disc.state
 
     small, reached = to(SMALL), []
-    for depth in DEPTHS:
+    for depth in depths:
         try:
             reached.append(to(depth))
         except Inverted:
@@ -64,9 +65,9 @@ def press(body: Surface, vertex: int) -> dict:
     }
 
 
-def run(body: Surface) -> None:
+def run(body: Surface, depths) -> None:
     chosen = sites.choose(body, sites.COUNT)[sites.held_out(sites.COUNT)][:3]
-    done = [press(body, int(vertex)) for vertex in chosen]
+    done = [press(body, int(vertex), depths) for vertex in chosen]
     each = [len(d["depth"]) for d in done]
     depth, force = (np.concatenate([d[name] for d in done]) for name in ("depth", "force"))
     write(
@@ -114,4 +115,6 @@ def run(body: Surface) -> None:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rhombus", default=str(HERE.parents[1] / "target" / "release" / "rhombus"))
-    run(make_liver(parser.parse_args().rhombus))
+    parser.add_argument("--depths", type=int, default=len(DEPTHS), help="how many of the depths, from the smallest on")
+    options = parser.parse_args()
+    run(make_liver(options.rhombus), DEPTHS[: options.depths])

@@ -10,7 +10,6 @@ HERE = Path(__file__).parent
 TABLES = {
     "validation": "validation.csv",
     "convergence": "liver_convergence.csv",
-    "bodies": "bodies_convergence.csv",
     "nonlinear": "liver_nonlinear.csv",
 }
 

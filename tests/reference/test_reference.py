@@ -206,9 +206,9 @@ def test_large_strain_starts_at_the_linear_solution_and_leaves_it_steadily_with_
         force = result["stiffness"][mine] * depth
         assert (np.diff(force) > 0).all()
         assert force[0] / depth[0] == pytest.approx(result["linear_stiffness"][mine][0], rel=0.05)
-        # The mesh is coarser than that of liver_r5.npz, the body the same.
+        # The mesh is coarser than that of liver_r5.npz (README.md: 0.4 to 1.1 % less stiff), the body the same.
         fine = alone["stiffness"][alone["site_vertex"] == vertex][0]
-        assert result["linear_stiffness"][mine][0] == pytest.approx(fine, rel=0.01)
+        assert result["linear_stiffness"][mine][0] == pytest.approx(fine, rel=0.015)
 
 
 @pytest.mark.parametrize("vertices", TETS)
