@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use crate::arc_length::ArcLengths;
 use crate::body::Body;
-use crate::contact_law::elongation_m;
 use crate::contact_shape::{ContactShape, Displacement};
 use crate::expansion::Expansion;
 use crate::interaction::Impression;
@@ -62,6 +61,9 @@ struct Neighbourhood {
 
 impl SurfaceField {
     /// Sets the memory for `body` aside: only for what `tissue` asks for.
+    ///
+    /// On a calibrated body of up to 4000 vertices the arc lengths between all vertices are worked out here, four bytes each:
+    /// 39 MB and about 0.6 s for 3116 vertices on one core of a present-day computer, longer where arcs are exact.
     #[must_use]
     pub fn new(body: &Body, tissue: &Tissue) -> Self {
         let vertices = body.mesh().vertices().len();
@@ -235,9 +237,8 @@ impl SurfaceField {
     fn displace_calibrated(&mut self, body: &Body, response: &Response, impression: &Impression) {
         let Spreading::Directional(field) = &mut self.spreading else { return };
         let (mesh, shape, own) = (body.mesh(), &self.shape, &mut self.own);
-        let elongation_m = elongation_m(impression.depth_m);
         let Moved { vertices, displacements } = own;
-        field.solve(mesh, response, shape, impression, elongation_m, vertices, displacements);
+        field.solve(mesh, response, shape, impression, vertices, displacements);
         if let Some(expansion) = &mut self.expansion {
             expansion.begin();
             for (&vertex, displacement) in vertices.iter().zip(displacements.iter()) {

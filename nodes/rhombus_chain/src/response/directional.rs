@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Mat4, Vec4};
 
+use crate::contact_law::elongation_m;
 use crate::contact_shape::ContactShape;
 use crate::interaction::Impression;
 use crate::mesh::SurfaceMesh;
@@ -82,14 +83,13 @@ impl DirectionalField {
     }
 
     /// Writes every vertex that `impression` moves, ascending, and its displacement, m, in the place of what was there. `shape` is
-    /// at its depth, which is `elongation_m` of the chains. Real-time safe with room for all vertices.
+    /// at its depth. Real-time safe with room for all vertices.
     pub(crate) fn solve(
         &mut self,
         mesh: &SurfaceMesh,
         response: &Response,
         shape: &ContactShape,
         impression: &Impression,
-        elongation_m: f64,
         vertices: &mut Vec<u32>,
         displacements: &mut Vec<DVec3>,
     ) {
@@ -98,7 +98,7 @@ impl DirectionalField {
         let boundary_m = shape.boundary_m() as f32;
         let press = Press {
             frame: ContactFrame::new(impression),
-            elongation_m,
+            elongation_m: elongation_m(impression.depth_m),
             lateral_m: impression.lateral_m,
             reach_m: shape.reach_m() as f32,
             boundary_m,
@@ -183,11 +183,13 @@ impl DirectionalField {
         at: &Axes,
         modes: &Axes,
     ) -> [[f32; LANES]; 3] {
-        let field = self.chains::<WAVES>(press, arc_m, at);
-        let rise = (arc_m * self.mode_rise_per_m).min(Vec4::ONE);
-        let x = field[0] + modes[0] * rise;
-        let y = field[1] + modes[1] * rise;
-        let z = field[2] + modes[2] * rise;
+        let [mut x, mut y, mut z] = self.chains::<WAVES>(press, arc_m, at);
+        if !self.amplitudes.is_empty() {
+            let rise = (arc_m * self.mode_rise_per_m).min(Vec4::ONE);
+            x += modes[0] * rise;
+            y += modes[1] * rise;
+            z += modes[2] * rise;
+        }
         [x.to_array(), y.to_array(), z.to_array()]
     }
 
