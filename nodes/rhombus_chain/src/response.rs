@@ -20,6 +20,7 @@ mod directional;
 mod grid;
 mod lanes;
 mod modes;
+mod moved;
 mod profiles;
 
 use glam::DVec3;

@@ -17,8 +17,8 @@ const TABLE_UP_TO: usize = 4000;
 /// Longest edges of the contact's face within which arcs are solved, and from which on they are interpolated.
 const SOLVED: f64 = 1.0;
 const INTERPOLATED: f64 = 2.0;
-/// Longest edges by which a solved arc that counts may be longer than the interpolated one; labels are off by 5 %.
-const MARGIN: f64 = 0.5;
+/// Longest edges by which a solved arc that counts may be longer than the interpolated one: 12 %, and labels are off by 5 %.
+const MARGIN: f64 = 0.25;
 /// Arcs below this are solved, not interpolated, m.
 const NEAREST_M: f32 = 1e-9;
 /// Nothing leads there.
