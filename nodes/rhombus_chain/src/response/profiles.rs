@@ -70,12 +70,14 @@ impl Profiles {
             for (here, [drop, ramp]) in chains.iter().zip(drops) {
                 let g = (1.0 - drop * here.scale).max(0.0);
                 if g > 0.0 {
-                    // Past the ramps, which end near the contact, all lanes are multiplied by the same.
-                    let directed = g * ramp;
-                    let all = if *ramp < 1.0 { Vec4::new(g, g, g, directed) } else { Vec4::splat(directed) };
-                    sums[0] += here.rows[0] * all;
-                    for (sum, row) in sums.iter_mut().zip(&here.rows).skip(1) {
-                        *sum += *row * directed;
+                    let directed = Vec4::splat(g * ramp);
+                    let mut by = [directed; WAVES];
+                    // Past the ramps, which end near the contact, all is multiplied by the same.
+                    if *ramp < 1.0 {
+                        by[0] = Vec4::new(g, g, g, g * ramp);
+                    }
+                    for ((sum, row), by) in sums.iter_mut().zip(&here.rows).zip(by) {
+                        *sum += *row * by;
                     }
                 }
             }
