@@ -20,6 +20,7 @@ mod directional;
 mod grid;
 mod lanes;
 mod modes;
+mod moved;
 mod profiles;
 
 use glam::DVec3;
@@ -165,8 +166,8 @@ impl Response {
             if numbers.len() != wanted {
                 return Err(ResponseError::Count { of, found: numbers.len(), wanted, vertices });
             }
-            if let Some(place) = numbers.iter().position(|number| number.is_nan() || number.abs() >= LARGEST)
-            {
+            let refused = |number: &f32| number.is_nan() || number.abs() >= LARGEST;
+            if let Some(place) = numbers.iter().position(refused) {
                 let vertex = place / each.max(1) % vertices;
                 return Err(ResponseError::Value { of, vertex, value: numbers[place] });
             }

@@ -61,6 +61,9 @@ struct Neighbourhood {
 
 impl SurfaceField {
     /// Sets the memory for `body` aside: only for what `tissue` asks for.
+    ///
+    /// On a calibrated body of up to 4000 vertices the arc lengths between all vertices are worked out here, four bytes each:
+    /// 39 MB and about 0.6 s for 3116 vertices on one core of a present-day computer, longer where arcs are exact.
     #[must_use]
     pub fn new(body: &Body, tissue: &Tissue) -> Self {
         let vertices = body.mesh().vertices().len();

@@ -210,3 +210,24 @@ fn a_change_of_tissue_is_taken_over() {
     new.update(&body, &wide, [press]);
     assert_eq!(field.displacements(), new.displacements());
 }
+
+/// Run with `--release` too: the expected number is the same. What a recording of a calibrated body replays to changes with it.
+#[test]
+fn a_calibrated_field_has_the_same_bits_in_debug_and_release() {
+    let mesh = mesh(bumpy(3));
+    let body = calibrated(mesh.clone(), turned(&mesh, DMat3::IDENTITY));
+    let tissue = tissue();
+    let (mut field, mut random) = (SurfaceField::new(&body, &tissue), Random(42));
+    // FNV-1a over the bits of each number.
+    let mut found = 0xcbf2_9ce4_8422_2325_u64;
+    for step in 0..200 {
+        let mut press = press(&mesh, random.surface_point(&mesh), 0.01 * random.unit() - 0.003);
+        press.lateral_m = press.normal.any_orthonormal_vector() * (1e-4 * f64::from(step % 3));
+        field.update(&body, &tissue, [press]);
+        for byte in field.displacements().iter().flat_map(|moved| moved.to_array()).flat_map(f64::to_le_bytes)
+        {
+            found = (found ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+    assert_eq!(found, 0xd498_edc5_dc9b_08ce, "{found:#018x}");
+}

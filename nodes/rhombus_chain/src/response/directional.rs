@@ -10,14 +10,16 @@ use crate::mesh::SurfaceMesh;
 use super::Response;
 use super::arc_table::ArcTable;
 use super::contact_frame::ContactFrame;
-use super::lanes::{Axes, BLOCK, HALVES, LANES, in_blocks};
+use super::lanes::{ALL, Axes, BLOCK, HALVES, LANES, in_blocks};
 use super::modes::Modes;
+use super::moved::Moved;
 use super::profiles::Profiles;
 
-/// All lanes.
-const WHOLE: u32 = (1 << LANES) - 1;
 /// Contact radius below which there is none, m.
 const NO_RADIUS_M: f64 = 1e-9;
+
+/// Blocks whose places are worked out before their displacements: a processor looks ahead only so far, and roots take long.
+const STRIP: usize = 4;
 
 /// What a calibrated field needs besides the response: made once for a body and a tissue.
 #[derive(Clone, Debug)]
@@ -45,6 +47,22 @@ struct Press {
     reach_m: f32,
     boundary_m: f32,
     closing_per_m: f32,
+}
+
+/// Where four vertices lie, seen from the contact.
+#[derive(Clone, Copy, Default)]
+struct Place {
+    arc_m: Vec4,
+    s_m: Vec4,
+    /// `min(1, arc / r_c)`.
+    rise: Vec4,
+    cosine: Vec4,
+    sine: Vec4,
+    /// cos, sin, cos 2 phi and sin 2 phi, times the rise.
+    waves: [[f32; LANES]; 4],
+    /// In the table of the chains.
+    nodes: [u32; LANES],
+    parts: [f32; LANES],
 }
 
 impl DirectionalField {
@@ -128,72 +146,65 @@ impl DirectionalField {
         // What is there already is overwritten.
         vertices.resize(all, 0);
         displacements.resize(all, DVec3::ZERO);
-        let has_modes = !self.amplitudes.is_empty();
-        let mut count = 0;
-        for (block, at) in self.positions.iter().enumerate() {
-            let arcs_m = self.arcs.block(block);
-            let modes = self.modes.at(block, &self.amplitudes);
-            for half in 0..HALVES {
-                let begin = block * BLOCK + half * LANES;
-                let arc_m = arcs_m[half];
-                let within = arc_m.cmplt(Vec4::splat(press.reach_m)).bitmask();
-                let moving = if has_modes { WHOLE } else { within };
-                if moving == 0 {
-                    continue;
+        let mut moved = Moved { vertices, displacements, count: 0 };
+        for (strip, at) in self.positions.chunks(STRIP).enumerate() {
+            let mut places = [[Place::default(); HALVES]; STRIP];
+            for (block, (places, at)) in places.iter_mut().zip(at).enumerate() {
+                let arcs_m = self.arcs.block(strip * STRIP + block);
+                for half in 0..HALVES {
+                    places[half] = self.place(press, arcs_m[half], &at[half]);
                 }
-                let [x, y, z] = self.per_metre::<WAVES>(press, arc_m, &at[half], &modes[half]);
-                let unit = |lane: usize| DVec3::new(x[lane].into(), y[lane].into(), z[lane].into());
-                let first = count;
-                let room = vertices.get_mut(count..count + LANES);
-                let room = room.zip(displacements.get_mut(count..count + LANES));
-                if let Some((vertices, displacements)) =
-                    room.filter(|_| moving == WHOLE && begin + LANES <= all)
-                {
-                    for lane in 0..LANES {
-                        vertices[lane] = (begin + lane) as u32;
-                        displacements[lane] = unit(lane) * press.elongation_m;
-                    }
-                    count += LANES;
-                } else {
-                    for lane in (0..LANES).filter(|lane| moving & (1 << lane) != 0 && begin + lane < all) {
-                        vertices[count] = (begin + lane) as u32;
-                        displacements[count] = unit(lane) * press.elongation_m;
-                        count += 1;
-                    }
-                }
-                if press.lateral_m != DVec3::ZERO {
-                    for (vertex, displacement) in
-                        vertices[first..count].iter().zip(&mut displacements[first..])
-                    {
-                        *displacement += press.lateral_m * self.share(press, arc_m[*vertex as usize % LANES]);
-                    }
+            }
+            for (block, places) in places.iter().enumerate().take(at.len()) {
+                let block = strip * STRIP + block;
+                let modes = self.modes.at(block, &self.amplitudes);
+                for half in 0..HALVES {
+                    let begin = block * BLOCK + half * LANES;
+                    self.move_four::<WAVES>(press, begin, &places[half], &modes[half], &mut moved);
                 }
             }
         }
+        let count = moved.count;
         vertices.truncate(count);
         displacements.truncate(count);
     }
 
-    /// Displacements of four vertices for each metre of elongation: x, y and z.
+    /// Moves those of the four vertices from `begin` on that move.
     #[inline(always)]
-    fn per_metre<const WAVES: usize>(
+    fn move_four<const WAVES: usize>(
         &self,
         press: &Press,
-        arc_m: Vec4,
-        at: &Axes,
+        begin: usize,
+        place: &Place,
         modes: &Axes,
-    ) -> [[f32; LANES]; 3] {
-        let field = self.chains::<WAVES>(press, arc_m, at);
-        let rise = (arc_m * self.mode_rise_per_m).min(Vec4::ONE);
-        let x = field[0] + modes[0] * rise;
-        let y = field[1] + modes[1] * rise;
-        let z = field[2] + modes[2] * rise;
-        [x.to_array(), y.to_array(), z.to_array()]
+        moved: &mut Moved<'_>,
+    ) {
+        let has_modes = !self.amplitudes.is_empty();
+        let within = place.arc_m.cmplt(Vec4::splat(press.reach_m)).bitmask();
+        let moving = if has_modes { ALL } else { within };
+        if moving == 0 {
+            return;
+        }
+        let [mut x, mut y, mut z] = self.chains::<WAVES>(press, place);
+        if has_modes {
+            let rise = (place.arc_m * self.mode_rise_per_m).min(Vec4::ONE);
+            x += modes[0] * rise;
+            y += modes[1] * rise;
+            z += modes[2] * rise;
+        }
+        let first = moved.count;
+        moved.push_four(begin, moving, [x.to_array(), y.to_array(), z.to_array()], press.elongation_m);
+        if press.lateral_m != DVec3::ZERO {
+            for k in first..moved.count {
+                let share = self.share(press, place.arc_m[moved.vertices[k] as usize % LANES]);
+                moved.displacements[k] += press.lateral_m * share;
+            }
+        }
     }
 
-    /// What the chains do at four vertices for each metre of elongation.
+    /// Where four vertices lie.
     #[inline(always)]
-    fn chains<const WAVES: usize>(&self, press: &Press, arc_m: Vec4, at: &Axes) -> Axes {
+    fn place(&self, press: &Press, arc_m: Vec4, at: &Axes) -> Place {
         let s_m = (arc_m - Vec4::splat(self.contact_radius_m)).max(Vec4::ZERO);
         // What has a direction rises from its zero at the contact in proportion to the arc, up to what the table has for s = 0.
         let rise = (arc_m * self.rise_per_m).min(Vec4::ONE);
@@ -206,7 +217,13 @@ impl DirectionalField {
             (2.0 * risen_cosine * sine).to_array(),
         ];
         let (nodes, parts) = self.profiles.grid.places(s_m);
-        let parts = parts.to_array();
+        Place { arc_m, s_m, rise, cosine, sine, waves, nodes, parts: parts.to_array() }
+    }
+
+    /// What the chains do at four vertices for each metre of elongation.
+    #[inline(always)]
+    fn chains<const WAVES: usize>(&self, press: &Press, place: &Place) -> Axes {
+        let Place { s_m, rise, cosine, sine, waves, nodes, parts, .. } = *place;
         let mut sums = [Vec4::ZERO; LANES];
         for lane in 0..LANES {
             let waves = [waves[0][lane], waves[1][lane], waves[2][lane], waves[3][lane]];

@@ -7,6 +7,8 @@ use glam::{DVec3, Vec4};
 pub(crate) const BLOCK: usize = 8;
 /// Vertices in one [`Vec4`].
 pub(crate) const LANES: usize = 4;
+/// The bits of all lanes.
+pub(crate) const ALL: u32 = (1 << LANES) - 1;
 /// Halves of a block.
 pub(crate) const HALVES: usize = BLOCK / LANES;
 

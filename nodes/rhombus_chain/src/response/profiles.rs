@@ -31,8 +31,7 @@ pub(crate) struct Profiles {
 #[derive(Clone, Copy, Default)]
 struct ChainHere {
     scale: f32,
-    constant: [Vec4; 2],
-    waves: [Vec4; MOST_WAVES - 1],
+    rows: Row,
 }
 
 impl Profiles {
@@ -61,9 +60,9 @@ impl Profiles {
         {
             let number = |place: usize| numbers.get(place).copied().unwrap_or_default();
             here.scale = shape.drop_scale(chain) as f32;
-            here.constant = [Vec4::new(number(0), 0.0, 0.0, 0.0), Vec4::new(0.0, 0.0, 0.0, number(WAVES))];
-            for (k, wave) in here.waves.iter_mut().enumerate().take(WAVES - 1) {
-                *wave = Vec4::new(number(1 + k), number(WAVES + 1 + k), number(2 * WAVES + k), 0.0);
+            here.rows[0] = Vec4::new(number(0), 0.0, 0.0, number(WAVES));
+            for k in 1..WAVES {
+                here.rows[k] = Vec4::new(number(k), number(WAVES + k), number(2 * WAVES + k - 1), 0.0);
             }
         }
         for (row, drops) in self.rows.iter_mut().zip(self.drops.chunks_exact(self.chains)) {
@@ -71,10 +70,14 @@ impl Profiles {
             for (here, [drop, ramp]) in chains.iter().zip(drops) {
                 let g = (1.0 - drop * here.scale).max(0.0);
                 if g > 0.0 {
-                    let directed = g * ramp;
-                    sums[0] += here.constant[0] * g + here.constant[1] * directed;
-                    for (sum, wave) in sums[1..].iter_mut().zip(&here.waves) {
-                        *sum += *wave * directed;
+                    let directed = Vec4::splat(g * ramp);
+                    let mut by = [directed; WAVES];
+                    // Past the ramps, which end near the contact, all is multiplied by the same.
+                    if *ramp < 1.0 {
+                        by[0] = Vec4::new(g, g, g, g * ramp);
+                    }
+                    for ((sum, row), by) in sums.iter_mut().zip(&here.rows).zip(by) {
+                        *sum += *row * by;
                     }
                 }
             }
