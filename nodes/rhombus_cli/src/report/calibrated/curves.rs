@@ -36,8 +36,7 @@ pub(super) fn all(reference: &Path) -> Result<Vec<Exhibit>> {
     let path = reference.join("bodies").join("curves.csv");
     ensure!(
         path.is_file(),
-        "{} is missing; its rows are calibrations with rhombus calibrate --body MESH --sites N --chains P --harmonics H --modes J, \
-         see tests/reference/README.md",
+        "{} is missing; make it with: python tests/reference/curves.py, which runs rhombus calibrate --body for each row",
         path.display()
     );
     let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;

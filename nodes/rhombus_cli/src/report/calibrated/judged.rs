@@ -204,6 +204,7 @@ pub(super) fn radius(context: &Context, liver: &Judged) -> Result<Exhibit> {
         title: "Calibrated with a disc of 5 mm, judged with one of 2 mm".to_owned(),
         caption: "The file is the same; the scene says probe.contact_radius: 0.002. The force is shown with the scene's own stiffness, which is \
                   that of the disc of 5 mm, and with one in proportion to the radius, as a flat punch on a half-space has it. \
+                  Far away the field goes with the force, and that of a narrower disc is less: the response does not know. \
                   Each disc is pressed as deep as it is wide."
             .to_owned(),
         figure: None,
