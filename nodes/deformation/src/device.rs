@@ -50,7 +50,7 @@ impl Device {
             gripper: kit.subscribe(&topics::GRIPPER_MEASURED_JS, name)?,
             clutch: kit.subscribe(&topics::CLUTCH, name)?,
             force: kit.publish(&topics::SERVO_CF, name)?,
-            law: kit.publish(&topics::CONTACT_LAW, name)?,
+            law: kit.publish(&topics::CONTACT_LAW.kept_in_lockstep(scene.replay.lockstep), name)?,
             state: kit.publish(&topics::CONTACT_STATE, name)?,
             messages: Messages::new(tissue, scene.device.motion_scale),
             counters: Counters::new(),

@@ -65,7 +65,7 @@ impl Deformation {
 
         let rest = session.body().mesh();
         kit.publish(&topics::BODY_MESH, "")?.publish(&convert::mesh(rest.vertices(), rest.triangles()))?;
-        let mut surface = Surface::new(session.body_frame(), loaded.topology_version);
+        let mut surface = Surface::new(session.body_frame(), loaded.topology_version, scene.replay.lockstep);
         if scene.surface.rate_hz > 0.0 {
             surface.announce(kit)?;
         }

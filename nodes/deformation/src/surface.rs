@@ -1,5 +1,6 @@
 //! The surface's displacement as a message. Without a rate nothing of this exists.
 
+use node_kit::topics::Topic;
 use node_kit::{NodeKit, PublishError, Publisher, StartError, convert, topics};
 use r2r::rhombus_haptics_msgs::msg::SurfaceDisplacement;
 use rhombus_chain::SurfaceMoment;
@@ -7,6 +8,7 @@ use rhombus_chain::SurfaceMoment;
 /// The surface's output: the topic, and what fills it.
 pub(crate) struct Surface {
     message: SurfaceDisplacement,
+    topic: Topic<SurfaceDisplacement>,
     /// Made when the surface is published for the first time.
     publisher: Option<Publisher<SurfaceDisplacement>>,
     published: u64,
@@ -14,16 +16,17 @@ pub(crate) struct Surface {
 
 impl Surface {
     /// One that publishes nothing yet.
-    pub(crate) fn new(body_frame: &str, topology_version: u32) -> Surface {
+    pub(crate) fn new(body_frame: &str, topology_version: u32, lockstep: bool) -> Surface {
         let mut message = SurfaceDisplacement { topology_version, ..SurfaceDisplacement::default() };
         message.header.frame_id = body_frame.to_owned();
-        Surface { message, publisher: None, published: 0 }
+        let topic = topics::SURFACE_DISPLACEMENT.kept_in_lockstep(lockstep);
+        Surface { message, topic, publisher: None, published: 0 }
     }
 
     /// Make the topic, if it is not there.
     pub(crate) fn announce(&mut self, kit: &mut NodeKit) -> Result<(), StartError> {
         if self.publisher.is_none() {
-            self.publisher = Some(kit.publish(&topics::SURFACE_DISPLACEMENT, "")?);
+            self.publisher = Some(kit.publish(&self.topic, "")?);
         }
         Ok(())
     }

@@ -49,6 +49,13 @@ impl<M> Topic<M> {
         }
     }
 
+    /// The same topic; in lockstep with a queue in which nothing is overwritten before who records it had time to ask for
+    /// it again: such a session goes faster than it was lived through. Who follows live wants what is fresh.
+    pub fn kept_in_lockstep(&self, lockstep: bool) -> Topic<M> {
+        let qos = if lockstep { self.qos.clone().keep_last(1000) } else { self.qos.clone() };
+        Topic { name: self.name.clone(), qos, message: PhantomData }
+    }
+
     /// Quality of service, the same for publishers and for subscriptions that answer or record.
     pub fn qos(&self) -> QosProfile {
         self.qos.clone()
@@ -212,6 +219,13 @@ mod tests {
         planned.sort();
         ours.sort();
         assert_eq!(planned, ours);
+    }
+
+    #[test]
+    fn in_lockstep_what_is_only_fresh_is_kept_as_long_as_what_must_arrive() {
+        assert_eq!(CONTACT_LAW.kept_in_lockstep(true).qos().depth, SERVO_CF.qos().depth);
+        assert_eq!(CONTACT_LAW.kept_in_lockstep(false).qos().depth, CONTACT_LAW.qos().depth);
+        assert_eq!(CONTACT_LAW.kept_in_lockstep(true).name(), CONTACT_LAW.name());
     }
 
     #[test]

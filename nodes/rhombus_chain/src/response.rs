@@ -118,16 +118,6 @@ pub enum ResponseError {
         /// Vertices of the mesh.
         mesh: usize,
     },
-    /// Made for another number of chains than the scene has.
-    #[error(
-        "the body's response is for {response} chains, and the scene has {scene}; accepted: the same number"
-    )]
-    Chains {
-        /// Of the response.
-        response: usize,
-        /// Of the scene.
-        scene: usize,
-    },
 }
 
 impl ResponseParts {

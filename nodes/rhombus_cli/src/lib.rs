@@ -7,6 +7,7 @@ pub mod drawing;
 pub mod guard;
 pub mod markup;
 pub mod output;
+pub mod progress_bar;
 pub mod reference;
 #[cfg(feature = "replay")]
 pub mod replay;

@@ -327,6 +327,7 @@ fn numbers_that_make_no_sense_are_refused() {
             &["--harmonics", "2"],
             &["--sites 24: too few for 2 harmonics", "accepted: 28 or more (12 + 8 H"],
         ),
+        (&[("--sites", "501")], &[], &["--sites 501; accepted: up to 500"]),
         (&[], &["--modes", "13"], &["too few for 0 harmonics and 13 body modes; accepted: 26 or more"]),
         (
             &[("--sites", "400")],

@@ -25,7 +25,7 @@ use rhombus_chain::SurfaceMesh;
 
 /// A place on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place {
+struct Place {
     position: DVec3,
     normal: DVec3,
     /// `h`.
@@ -62,12 +62,12 @@ pub(super) const FEWEST_SITES: usize = 8;
 const LENGTHS: [f64; 10] = [0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.56, 0.8, 1.1];
 const NORMALS: [f64; 7] = [0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 4.0];
 /// What a factor of a map may be.
-pub(super) const FACTORS: (f64, f64) = (1e-3, 1e3);
+const FACTORS: (f64, f64) = (1e-3, 1e3);
 const NOISES: [f64; 5] = [1e-6, 1e-4, 1e-3, 1e-2, 1e-1];
 
 impl Place {
     /// A vertex of `mesh`, which is held at the vertices where `fixed` says so.
-    pub(super) fn new(mesh: &SurfaceMesh, fixed: &[bool], vertex: usize, contact_radius_m: f64) -> Self {
+    fn new(mesh: &SurfaceMesh, fixed: &[bool], vertex: usize, contact_radius_m: f64) -> Self {
         let (position, normal) = (mesh.vertices()[vertex], mesh.vertex_normals()[vertex]);
         let held_vertices = fixed.iter().enumerate().filter(|(_, fixed)| **fixed).map(|(held, _)| held);
         let part = |held: usize| {
@@ -86,7 +86,7 @@ impl Place {
 
 impl Interpolation {
     /// From the logarithms at some places. `None` where the places are so alike that nothing tells them apart.
-    pub(super) fn new(sites: &[Place], logarithms: &[f64]) -> Option<Self> {
+    fn new(sites: &[Place], logarithms: &[f64]) -> Option<Self> {
         let size_m = sites
             .iter()
             .flat_map(|a| sites.iter().map(|b| a.position.distance(b.position)))
@@ -136,10 +136,50 @@ impl Interpolation {
     }
 
     /// The logarithm at a place.
-    pub(super) fn at(&self, place: &Place) -> f64 {
+    fn at(&self, place: &Place) -> f64 {
         let likeness = self.sites.iter().map(|site| self.choice.likeness(site, place));
         let near: f64 = likeness.zip(self.weights.iter()).map(|(k, weight)| k * weight).sum();
         place.trend(&self.choice).dot(&self.trend) + near
+    }
+}
+
+/// Of positive numbers.
+pub(super) fn geometric_mean(numbers: &[f64]) -> f64 {
+    libm::exp(mean_logarithm(numbers))
+}
+
+fn mean_logarithm(numbers: &[f64]) -> f64 {
+    numbers.iter().map(|number| libm::log(*number)).sum::<f64>() / numbers.len() as f64
+}
+
+/// Factors of a whole surface.
+pub(super) struct RegionalFactors {
+    /// One for each vertex; their logarithms are 0 on average over the sites.
+    pub(super) factors: Vec<f64>,
+    /// What has the factor 1, N/m: the geometric mean of the sites.
+    pub(super) stiffness: f64,
+    /// How well the sites tell about each other.
+    pub(super) interpolation: Interpolation,
+}
+
+impl RegionalFactors {
+    /// From the stiffness, N/m, at some vertices of `mesh`, which is held where `fixed` says so. `None` where the sites are
+    /// so alike that nothing tells them apart.
+    pub(super) fn new(
+        mesh: &SurfaceMesh,
+        fixed: &[bool],
+        contact_radius_m: f64,
+        sites: &[usize],
+        stiffnesses: &[f64],
+    ) -> Option<Self> {
+        let mean = mean_logarithm(stiffnesses);
+        let logarithms: Vec<f64> = stiffnesses.iter().map(|stiffness| libm::log(*stiffness) - mean).collect();
+        let place = |vertex: usize| Place::new(mesh, fixed, vertex, contact_radius_m);
+        let places: Vec<Place> = sites.iter().map(|vertex| place(*vertex)).collect();
+        let interpolation = Interpolation::new(&places, &logarithms)?;
+        let factor = |vertex: usize| libm::exp(interpolation.at(&place(vertex))).clamp(FACTORS.0, FACTORS.1);
+        let factors = (0..mesh.vertices().len()).map(factor).collect();
+        Some(Self { factors, stiffness: libm::exp(mean), interpolation })
     }
 }
 

@@ -10,7 +10,7 @@ use rhombus_chain::{Body, ChainParameters, Formulation, StiffnessMap, SurfaceMes
 
 use super::errors::{self, NEAR_M, SiteError, Which, median, one_contact};
 use super::fitted::{self, FitError, Fitted, Reached, Spring};
-use super::regional::{FACTORS, FEWEST_SITES, Interpolation, Place};
+use super::regional::{FEWEST_SITES, RegionalFactors, geometric_mean};
 use super::rings::Rings;
 use super::shape::ShapeTask;
 use crate::reference::{Reference, ReferenceContact};
@@ -82,11 +82,10 @@ pub fn fit_within(
     };
     let rings = Rings::new(reference, &mesh, &sites, &contacts, radius_m);
     let shape = task.fit(&rings.points)?;
-    let logarithms: Vec<f64> = contacts.iter().map(|c| libm::log(c.stiffness_n_per_m)).collect();
-    let mean = logarithms.iter().sum::<f64>() / logarithms.len() as f64;
+    let stiffnesses: Vec<f64> = contacts.iter().map(|contact| contact.stiffness_n_per_m).collect();
     let spring = Spring {
         formulation: Formulation::Energy,
-        rest_n_per_m: libm::exp(mean),
+        rest_n_per_m: geometric_mean(&stiffnesses),
         tangential: 0.0,
         range_m: task.range_m,
     };
@@ -104,13 +103,12 @@ pub fn fit_within(
     fitted.notes.extend(shape.notes);
     let map = match with_map {
         true => {
-            let logarithms: Vec<f64> = logarithms.iter().map(|logarithm| logarithm - mean).collect();
-            let (map, leave_one_out) = regional(reference, &mesh, radius_m, &contacts, &logarithms)?;
+            let regional = regional(reference, &mesh, radius_m, &contacts, &stiffnesses)?;
             fitted.reached.push(Reached {
                 what: format!("force at each of {} sites, predicted from the others (rms)", sites.len()),
-                relative: leave_one_out,
+                relative: regional.interpolation.leave_one_out,
             });
-            Some(map)
+            Some(regional.factors)
         }
         false => None,
     };
@@ -192,14 +190,14 @@ fn contact_radius(reference: &Reference, sites: &[usize]) -> Result<f64, FitErro
     }
 }
 
-/// Factors for all vertices, and how well each site is predicted from the others.
+/// Factors for all vertices.
 fn regional(
     reference: &Reference,
     mesh: &SurfaceMesh,
     radius_m: f64,
     contacts: &[ReferenceContact],
-    logarithms: &[f64],
-) -> Result<(Vec<f64>, f64), FitError> {
+    stiffnesses: &[f64],
+) -> Result<RegionalFactors, FitError> {
     if contacts.len() < FEWEST_SITES {
         let found = contacts.len();
         return Err(FitError::Data(format!(
@@ -207,10 +205,7 @@ fn regional(
             reference.file
         )));
     }
-    let place = |vertex: usize| Place::new(mesh, &reference.fixed, vertex, radius_m);
-    let places: Vec<Place> = contacts.iter().map(|contact| place(contact.vertex as usize)).collect();
-    let interpolation =
-        Interpolation::new(&places, logarithms).ok_or(FitError::NoSolution("regional stiffness"))?;
-    let factor = |vertex: usize| libm::exp(interpolation.at(&place(vertex))).clamp(FACTORS.0, FACTORS.1);
-    Ok(((0..mesh.vertices().len()).map(factor).collect(), interpolation.leave_one_out))
+    let vertices: Vec<usize> = contacts.iter().map(|contact| contact.vertex as usize).collect();
+    RegionalFactors::new(mesh, &reference.fixed, radius_m, &vertices, stiffnesses)
+        .ok_or(FitError::NoSolution("regional stiffness"))
 }

@@ -114,13 +114,6 @@ impl CalibratedBody {
         })
     }
 
-    /// Time, s, and largest memory, GB, of the calibration, where the file says so: `took 431 s, 5.2 GB`.
-    pub(crate) fn took(&self) -> Option<(f64, f64)> {
-        let line = self.header.made.iter().find_map(|line| line.strip_prefix("took "))?;
-        let (seconds, memory) = line.split_once(" s, ")?;
-        Some((seconds.parse().ok()?, memory.strip_suffix(" GB")?.parse().ok()?))
-    }
-
     /// P, H and J in words.
     pub(crate) fn size(&self) -> String {
         let ResponseHeader { chains, harmonics, modes, .. } = &self.header;
@@ -166,7 +159,7 @@ mod tests {
             chains: plain.law().unwrap().chains().iter().map(|c| ChainShape::of(c.parameters())).collect(),
             contact_radius_m: 0.005,
             modes: 2,
-            made: vec!["sites (2): 0 2".to_owned(), "took 431.5 s, 5.2 GB".to_owned()],
+            made: vec!["sites (2): 0 2".to_owned()],
             ..ResponseHeader::default()
         };
         let parts = ResponseParts {
@@ -222,7 +215,6 @@ mod tests {
         for body in [all, bare, alone] {
             assert_eq!(body.stiffness().unwrap().range(), (0.5, 2.0));
         }
-        assert_eq!(own.took(), Some((431.5, 5.2)));
         let size = std::fs::metadata(folder.path().join("organ.body")).unwrap().len();
         assert_eq!(own.file_bytes, size);
     }

@@ -5,6 +5,7 @@ mod deep;
 mod judged;
 mod map;
 mod timing;
+mod took;
 
 use super::bodies::Kept;
 use super::figure::{Axis, Series};
@@ -15,6 +16,7 @@ use super::table::Table;
 use super::truth::{Part, Score};
 use judged::Judged;
 use timing::Timing;
+use took::Took;
 
 pub(crate) const SECTION: Section = Section {
     name: "calibrated",
@@ -152,15 +154,12 @@ fn verdicts(context: &Context, judged: &[Judged], timing: &Timing) -> anyhow::Re
     verdicts.push(Verdict::new(FORCE_QUERY, measured, own <= 1.1 * other));
     let megabytes = liver.body.file_bytes as f64 / 1e6;
     verdicts.push(Verdict::new(FILE, format!("{megabytes:.2} MB ({})", liver.body.size()), megabytes < 8.0));
-    let took = context.lab.body(liver.name)?.took();
-    verdicts.push(match took {
-        Some((seconds, gigabytes)) => Verdict::new(
-            CALIBRATION,
-            format!("{:.1} min, {gigabytes:.1} GB, as its file says", seconds / 60.0),
-            seconds <= 600.0 && gigabytes < 12.0,
-        ),
-        None => Verdict::not_judged(CALIBRATION, "its file does not say"),
-    });
+    let took = Took::read(context.reference, liver.name)?;
+    verdicts.push(Verdict::new(
+        CALIBRATION,
+        format!("{:.1} min, {:.2} GB, measured when it was made", took.seconds / 60.0, took.gigabytes),
+        took.seconds <= 600.0 && took.gigabytes < 12.0,
+    ));
     Ok(verdicts)
 }
 

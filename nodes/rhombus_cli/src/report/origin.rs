@@ -25,6 +25,8 @@ pub(crate) struct Origin {
     pub(crate) cores: usize,
     /// Of the machine.
     pub(crate) memory_bytes: u64,
+    /// `GLIBC_TUNABLES`, by which memory comes in large pages.
+    pub(crate) tunables: Option<String>,
     /// Processes ready to run when the report began: above 0.5 or so, times are too long.
     pub(crate) load: f64,
 }
@@ -49,6 +51,7 @@ impl Origin {
             cpu: value(&cpu_info, "model name").unwrap_or_else(|| "unknown CPU".to_owned()),
             cores: std::thread::available_parallelism().map_or(0, std::num::NonZero::get),
             memory_bytes: kilobytes.unwrap_or(0) * 1024,
+            tunables: std::env::var("GLIBC_TUNABLES").ok(),
             load: load.split(' ').next().and_then(|text| text.parse().ok()).unwrap_or(f64::NAN),
         }
     }
@@ -62,6 +65,7 @@ impl Origin {
             ("commit", self.commit.to_owned()),
             ("compiler", format!("{}, {}", self.rustc, self.profile)),
             ("machine", format!("{}, {} cores, {gigabytes:.1} GB", self.cpu, self.cores)),
+            ("GLIBC_TUNABLES", self.tunables.clone().unwrap_or_else(|| "not set".to_owned())),
             ("load at the start", format!("{:.2}", self.load)),
         ]
     }

@@ -1,9 +1,7 @@
 //! How far a report is: a bar where stderr is a terminal, otherwise one line for each step.
 
-use std::io::IsTerminal;
-use std::time::Duration;
-
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
+use rhombus_cli::progress_bar;
 
 /// Says on stderr what is being computed.
 pub(crate) struct Progress {
@@ -13,15 +11,7 @@ pub(crate) struct Progress {
 impl Progress {
     /// A bar over `sections` on a terminal, lines elsewhere.
     pub(crate) fn new(sections: usize) -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
-            let bar = ProgressBar::with_draw_target(Some(sections as u64), ProgressDrawTarget::stderr());
-            let style =
-                ProgressStyle::with_template("[{elapsed_precise}] {bar:24} {pos}/{len} {prefix}: {wide_msg}");
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-            bar.enable_steady_tick(Duration::from_millis(200));
-            bar
-        });
-        Self { bar }
+        Self { bar: progress_bar::on_terminal(Some(sections as u64)) }
     }
 
     /// A section begins.

@@ -9,7 +9,7 @@ use rhombus_chain::{MOST_HARMONICS, MOST_MODES};
 
 use super::chains::Wanted;
 use super::region::Region;
-use super::sites::{self, DEFAULT_SITES};
+use super::sites::{self, DEFAULT_SITES, MOST_SITES};
 
 /// Options of `--body` alone.
 #[derive(Args)]
@@ -116,6 +116,7 @@ impl BodyOptions {
              for each mode)",
             self.sites
         );
+        ensure!(self.sites <= MOST_SITES, "--sites {}; accepted: up to {MOST_SITES}", self.sites);
         Ok(Wanted { chains, harmonics: self.harmonics, modes: self.modes })
     }
 }

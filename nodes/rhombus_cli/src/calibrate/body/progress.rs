@@ -1,9 +1,10 @@
 //! How far a calibration is, and how long the present step will take: a bar on a terminal, otherwise lines.
 
-use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
+
+use crate::progress_bar;
 
 /// One step of a calibration, said on stderr.
 pub(super) struct Progress {
@@ -17,15 +18,10 @@ pub(super) struct Progress {
 impl Progress {
     /// A step begins.
     pub(super) fn new(name: &'static str) -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
-            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-            let style =
-                ProgressStyle::with_template("[{elapsed_precise}] {bar:24} {pos}/{len} {prefix}: {wide_msg}");
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        let bar = progress_bar::on_terminal(None);
+        if let Some(bar) = &bar {
             bar.set_prefix(name);
-            bar.enable_steady_tick(Duration::from_millis(200));
-            bar
-        });
+        }
         Self { name, bar, started: Instant::now(), before: None }
     }
 

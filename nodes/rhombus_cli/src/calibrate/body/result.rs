@@ -13,7 +13,7 @@ use super::work::Work;
 use super::{Calibrated, Calibration, picture};
 use crate::calibrate::errors::{Which, at_sites};
 use crate::calibrate::fitted::{Fitted, Reached};
-use crate::calibrate::regional::{FACTORS, Interpolation, Place};
+use crate::calibrate::regional::RegionalFactors;
 use crate::calibrate::write::{BodyLines, Output, percent};
 
 /// Names of what is written, and of the folder beside it.
@@ -70,17 +70,12 @@ impl Made {
         let vertices = &calibration.sites.vertices;
         let stiffnesses = fit::stiffnesses(work, &calibration.sites.batches)?;
         let fit = fit::read(work, mesh.vertices().len(), vertices.len(), &calibration.candidates)?;
-        let logarithms: Vec<f64> = stiffnesses.iter().map(|stiffness| libm::log(*stiffness)).collect();
-        let mean = logarithms.iter().sum::<f64>() / logarithms.len() as f64;
-        let logarithms: Vec<f64> = logarithms.iter().map(|logarithm| logarithm - mean).collect();
-        let place = |vertex: usize| Place::new(mesh, &calibration.held, vertex, calibration.contact_radius_m);
-        let places: Vec<Place> = vertices.iter().map(|vertex| place(*vertex)).collect();
-        let interpolation = Interpolation::new(&places, &logarithms)
+        let radius_m = calibration.contact_radius_m;
+        let regional = RegionalFactors::new(mesh, &calibration.held, radius_m, vertices, &stiffnesses)
             .context("the stiffness between the sites: they are too much alike to be told apart")?;
-        let factor = |vertex: usize| libm::exp(interpolation.at(&place(vertex))).clamp(FACTORS.0, FACTORS.1);
         // What the file holds in single precision is what is judged.
-        let factors = (0..mesh.vertices().len()).map(|vertex| f64::from(factor(vertex) as f32)).collect();
-        let force = interpolation.errors.iter().map(|e| (libm::exp(-e) - 1.0).abs());
+        let factors = regional.factors.iter().map(|factor| f64::from(*factor as f32)).collect();
+        let force = regional.interpolation.errors.iter().map(|e| (libm::exp(-e) - 1.0).abs());
         let judged: Vec<Judged> = (vertices.iter().zip(&fit.site_errors).zip(force))
             .map(|((vertex, [field, near]), force)| Judged {
                 vertex: *vertex,
@@ -90,7 +85,7 @@ impl Made {
             })
             .collect();
         let [low, high] = mesh.extents();
-        let parameters = fit.candidate.parameters(libm::exp(mean), 0.5 * (high - low).min_element());
+        let parameters = fit.candidate.parameters(regional.stiffness, 0.5 * (high - low).min_element());
         let surface = SurfaceParameters {
             cutoff: 0.0,
             contact_radius_m: calibration.contact_radius_m,

@@ -9,6 +9,9 @@ use crate::calibrate::errors::at_vertex;
 /// Sites where nothing else is asked for.
 pub(super) const DEFAULT_SITES: usize = 80;
 
+/// The stiffness between so many is still found in minutes, and the file's header has room for their numbers.
+pub(super) const MOST_SITES: usize = 500;
+
 /// A site is at least this many contact radii from what is held: a disc there would touch it.
 const CLEARANCE: f64 = 2.0;
 /// Sites of a batch are pressed one by one on one mesh; it is refined around each.
