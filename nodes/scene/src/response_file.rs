@@ -110,6 +110,26 @@ impl ChainShape {
     }
 }
 
+impl ResponseHeader {
+    /// Lengths and ratios are finite and above 0, errors finite and not below.
+    fn check_numbers(&self) -> Result<(), String> {
+        let chains =
+            self.chains.iter().flat_map(|chain| [("ratio", chain.ratio), ("pitch_m", chain.pitch_m)]);
+        let mut sizes = chains.chain([("contact_radius_m", self.contact_radius_m)]);
+        if let Some((key, value)) = sizes.find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
+            return Err(format!("header: {key} is {value}; accepted: a finite number greater than 0"));
+        }
+        let errors = self.errors.iter().flat_map(|region| {
+            let parts = [("field", region.field), ("near_field", region.near_field), ("force", region.force)];
+            parts.into_iter().flat_map(|(key, values)| values.map(|value| (key, value)))
+        });
+        let mut errors = errors.filter(|(_, value)| !(value.is_finite() && *value >= 0.0));
+        errors.next().map_or(Ok(()), |(key, value)| {
+            Err(format!("header: an error of {key} is {value}; accepted: a finite number, 0 or more"))
+        })
+    }
+}
+
 /// CRC-32 of the coordinates (f64, little-endian) and corners (u32, little-endian) of a mesh, in their order.
 #[must_use]
 pub fn mesh_checksum(mesh: &SurfaceMesh) -> u32 {
@@ -216,6 +236,7 @@ impl ResponseFile {
             rest.split_at_checked(length).filter(|_| length <= LARGEST_HEADER).ok_or(cut)?;
         let header: ResponseHeader =
             serde_yaml::from_slice(header).map_err(|fault| format!("header: {fault}"))?;
+        header.check_numbers()?;
         let (vertices, chains, harmonics, modes) =
             (header.vertices, header.chains.len(), header.harmonics, header.modes);
         if chains > MOST_CHAINS || harmonics > MOST_HARMONICS || modes > MOST_MODES || vertices > bytes.len()

@@ -3,7 +3,8 @@
 
 use rhombus_chain::ResponseParts;
 use scene::{
-    ChainShape, LoadedBody, Reader, ResponseFile, ResponseHeader, Scene, mesh_checksum, read_response,
+    ChainShape, LoadedBody, Reader, RegionError, ResponseFile, ResponseHeader, Scene, mesh_checksum,
+    read_response,
 };
 
 /// A tetrahedron, outward.
@@ -110,13 +111,31 @@ fn what_does_not_fit_the_scene_is_refused_with_what_is_accepted() {
         bytes.splice(place..=place, version.bytes());
         bytes
     };
-    let cases: [(Vec<u8>, &str, &str); 8] = [
+    let off_by = |force| RegionError {
+        region: "all".to_owned(),
+        sites: 1,
+        field: [0.1; 2],
+        near_field: [0.1; 2],
+        force: [0.0, force],
+    };
+    let cases: [(Vec<u8>, &str, &str); 11] = [
         (with_version("2"), "", "version 2; accepted: 1"),
         (bytes(|file| file.header.mesh_crc32 ^= 1), "", "made for another mesh (4 vertices"),
         (
             bytes(|file| file.header.chains[0].units = 21),
             "",
             "made for chains with (ratio, units, pitch) (0.9, 21, 0.004 m); the scene has (0.9, 20, 0.004 m)",
+        ),
+        (
+            bytes(|file| file.header.contact_radius_m = f64::INFINITY),
+            "",
+            "header: contact_radius_m is inf; accepted: a finite number greater than 0",
+        ),
+        (bytes(|file| file.header.chains[0].pitch_m = 0.0), "", "header: pitch_m is 0; accepted: "),
+        (
+            bytes(|file| file.header.errors = vec![off_by(f64::NAN)]),
+            "",
+            "header: an error of force is NaN; accepted: a finite number, 0 or more",
         ),
         (bytes(|file| file.parts.coefficients[0] = 0.5), "", "add up to 0.5; accepted: 1"),
         (bytes(|file| file.factors[2] = 0.0), "", "stiffness factor 0 of vertex 2"),

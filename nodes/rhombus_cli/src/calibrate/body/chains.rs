@@ -30,7 +30,7 @@ pub(super) struct Wanted {
 /// Chains that are tried.
 const CHAINS: std::ops::RangeInclusive<usize> = 3..=6;
 /// Body modes that are tried.
-const MODES: [usize; 5] = [0, 8, 16, 24, 32];
+const MODES: [usize; 9] = [0, 8, 16, 24, 32, 48, 64, 96, 128];
 /// Most harmonics.
 const HARMONICS: usize = rhombus_chain::MOST_HARMONICS;
 /// The shortest decay length in contact radii, the longest in diagonals of the body's box.
