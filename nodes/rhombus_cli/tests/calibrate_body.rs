@@ -292,7 +292,7 @@ fn numbers_that_make_no_sense_are_refused() {
     let shape = generate::body(BodyKind::Sphere, 400);
     let uncoloured = Obj { comment: "", vertices: &shape.vertices, triangles: &shape.triangles };
     std::fs::write(folder.path("plain.obj"), uncoloured.to_string()).expect("a file");
-    let cases: [Case<'_>; 24] = [
+    let cases: [Case<'_>; 25] = [
         (&[("--young", "0")], &[], &["--young 0; accepted: a finite number greater than 0"]),
         (&[("--young", "-5")], &[], &["--young -5; accepted"]),
         (&[("--young", "inf")], &[], &["--young inf; accepted: a finite"]),
