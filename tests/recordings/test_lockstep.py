@@ -86,6 +86,19 @@ def record_answers(folder, devices=("",)):
     return peer.Program(folder / "recorder", "bag_replay", values).wait_ready()
 
 
+def wait_for_publishers(remote):
+    """Until the recorder has found who publishes what it records; what is sent before nobody gets."""
+
+    remote.statuses.pop("/bag_replay: recording", None)
+
+    def found():
+        said = remote.statuses.get("/bag_replay: recording")
+        return said and said[-1][2]["topics_without_publisher"] == "0"
+
+    remote.wait_for(found, "the recorder's publishers")
+    remote.spin(0.5)
+
+
 def forces_in(path, topic="/servo_cf"):
     with AnyReader([path]) as reader:
         connections = [connection for connection in reader.connections if connection.topic == topic]
@@ -143,9 +156,7 @@ def test_every_pose_is_answered_with_the_bits_of_the_replay_without_ros_idle_and
     def run(folder):
         deformation = programs(model(folder, **names))
         recorder = programs(record_answers(folder, devices))
-        answers = [f"/{device}servo_cf" for device in devices]
-        remote.wait_for(lambda: all(remote.node.count_subscribers(name) > 0 for name in answers), "the recorder")
-        remote.spin(0.5)
+        wait_for_publishers(remote)
         program = programs(replay(folder, path, **names))
         assert ended(remote, program) == 0, program.log()
         assert recorder.interrupt()[0] == 0, recorder.log()
@@ -179,7 +190,7 @@ def test_the_committed_recordings_are_answered_over_dds_with_the_committed_diges
         peer.Program(tmp_path, "deformation", {"replay.lockstep": True}, arguments=scene).wait_ready()
     )
     recorder = programs(record_answers(tmp_path, devices))
-    remote.spin(0.5)
+    wait_for_publishers(remote)
     program = programs(replay(tmp_path, path, scene))
     assert ended(remote, program) == 0, program.log()
     assert recorder.interrupt()[0] == 0, recorder.log()
@@ -213,7 +224,7 @@ def test_poses_that_are_none_and_stamps_that_do_not_grow_are_each_answered_as_wi
     path = bags.write(tmp_path / "bag", broken_poses())
     deformation = programs(model(tmp_path))
     recorder = programs(record_answers(tmp_path))
-    remote.spin(0.5)
+    wait_for_publishers(remote)
     program = programs(replay(tmp_path, path))
     assert ended(remote, program) == 0, program.log()
     assert recorder.interrupt()[0] == 0, recorder.log()
@@ -235,7 +246,7 @@ def test_a_model_on_simulated_time_follows_the_clock_of_a_replay(tmp_path, progr
     deformation = programs(model(tmp_path, use_sim_time=True))
     diagnostics = remote.heard(DiagnosticArray, "/diagnostics", peer.reliable(100))
     recorder = programs(record_answers(tmp_path))
-    remote.spin(0.5)
+    wait_for_publishers(remote)
     program = programs(replay(tmp_path, path, replay__clock=1000.0))
     assert ended(remote, program) == 0, program.log()
     # The node says once a second what it does, in the time of the recording.
