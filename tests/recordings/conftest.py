@@ -18,11 +18,13 @@ sys.path.insert(0, str(REPOSITORY / "tests" / "graph"))
 def example():
     """Builds the examples once; `example(name, *arguments)` runs one and returns what it printed."""
     subprocess.run(
-        ["cargo", "build", "--locked", "--quiet", "-p", "recording", "--examples"], cwd=REPOSITORY, check=True
+        ["cargo", "build", "--locked", "--release", "--quiet", "-p", "recording", "--examples"],
+        cwd=REPOSITORY,
+        check=True,
     )
 
     def run(name, *arguments):
-        command = [TARGET / "debug" / "examples" / name, *map(str, arguments)]
+        command = [TARGET / "release" / "examples" / name, *map(str, arguments)]
         return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
     return run
