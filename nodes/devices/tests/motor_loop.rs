@@ -19,8 +19,13 @@ use rhombus_chain::{ChainParameters, ContactLaw, Formulation, LocalLaw, Mode, Po
 thread_local! {
     /// Whether the current thread's use of the allocator is counted.
     static WATCHED: Cell<bool> = const { Cell::new(false) };
+    /// What was counted. Each thread's own, because other tests' loops run beside.
+    static ALLOCATOR_CALLS: Cell<u64> = const { Cell::new(0) };
 }
-static ALLOCATOR_CALLS: AtomicU64 = AtomicU64::new(0);
+
+fn count_if_watched() {
+    ALLOCATOR_CALLS.set(ALLOCATOR_CALLS.get() + u64::from(WATCHED.get()));
+}
 
 struct Counting;
 
@@ -28,12 +33,12 @@ struct Counting;
 // SAFETY: every call goes unchanged to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATOR_CALLS.fetch_add(u64::from(WATCHED.get()), SeqCst);
+        count_if_watched();
         // SAFETY: the caller's promise is passed on.
         unsafe { System.alloc(layout) }
     }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        ALLOCATOR_CALLS.fetch_add(u64::from(WATCHED.get()), SeqCst);
+        count_if_watched();
         // SAFETY: the caller's promise is passed on.
         unsafe { System.dealloc(pointer, layout) }
     }
@@ -48,6 +53,8 @@ struct Seen {
     commands: Vec<DVec3>,
     motors_on: bool,
     opened: u32,
+    /// Allocations and frees in its thread while that was watched, up to when the motors went off last.
+    allocator_calls: u64,
 }
 
 /// What shall go wrong.
@@ -99,7 +106,9 @@ impl Device for Handle {
     }
     fn disable(&mut self) -> Result<(), DeviceError> {
         WATCHED.set(false);
-        self.seen.lock().unwrap().motors_on = false;
+        let mut seen = self.seen.lock().unwrap();
+        seen.motors_on = false;
+        seen.allocator_calls = ALLOCATOR_CALLS.get();
         Ok(())
     }
 }
@@ -221,7 +230,6 @@ const PRESSED: Plan =
 #[test]
 fn the_loop_answers_with_the_laws_force_and_never_calls_the_allocator() {
     let (mut motor, mut drain, seen) = start(PRESSED);
-    let before = ALLOCATOR_CALLS.load(SeqCst);
     let mut last_stamp_ns = 0;
     let mut forces = Vec::with_capacity(3000);
     // Every answer brings new chains, so every period lets go of old ones.
@@ -238,12 +246,12 @@ fn the_loop_answers_with_the_laws_force_and_never_calls_the_allocator() {
     assert!(motor.is_running());
     assert_eq!(motor.enabled_at_start(), Some(Answer::Accepted(OperatingState::Enabled)));
     motor.stop().unwrap();
-    assert_eq!(ALLOCATOR_CALLS.load(SeqCst) - before, 0, "allocations or frees in the motor loop's thread");
 
     let softest = chains(500.0).at_depth(0.002).unwrap().force_n;
     let last = forces[forces.len() - 1];
     assert!(last.z > 2.0 * softest && last.x == 0.0 && last.y == 0.0, "{last}");
     let seen = seen.lock().unwrap();
+    assert_eq!(seen.allocator_calls, 0, "allocations or frees in the motor loop's thread");
     assert_eq!(seen.commands.last(), Some(&DVec3::ZERO));
     assert!(!seen.motors_on);
     assert_eq!(motor.counts().unusable_forces, 0);
@@ -251,26 +259,30 @@ fn the_loop_answers_with_the_laws_force_and_never_calls_the_allocator() {
 
 /// A device whose thread must leave the allocator alone from the first reading on.
 #[cfg(feature = "pointer")]
-struct Watched(devices::pointer::PointerDevice);
+struct Watched {
+    device: devices::pointer::PointerDevice,
+    allocator_calls: Arc<AtomicU64>,
+}
 
 #[cfg(feature = "pointer")]
 impl Device for Watched {
     fn description(&self) -> &Description {
-        self.0.description()
+        self.device.description()
     }
     fn read(&mut self) -> Result<DeviceState, DeviceError> {
         WATCHED.set(true);
-        self.0.read()
+        self.device.read()
     }
     fn command(&mut self, wrench: &Wrench) -> Result<(), DeviceError> {
-        self.0.command(wrench)
+        self.device.command(wrench)
     }
     fn enable(&mut self) -> Result<(), DeviceError> {
-        self.0.enable()
+        self.device.enable()
     }
     fn disable(&mut self) -> Result<(), DeviceError> {
         WATCHED.set(false);
-        self.0.disable()
+        self.allocator_calls.store(ALLOCATOR_CALLS.get(), SeqCst);
+        self.device.disable()
     }
 }
 
@@ -289,12 +301,14 @@ fn a_hand_that_is_led_by_a_pointer_presses_and_never_calls_the_allocator() {
         period_s: 1.0 / 4000.0,
         targets,
     };
+    let allocator_calls = Arc::new(AtomicU64::new(u64::MAX));
+    let counted = allocator_calls.clone();
     let open = move || -> Result<Box<dyn Device>, DeviceError> {
-        Ok(Box::new(Watched(PointerDevice::open(settings_of_device.clone())?)))
+        let device = PointerDevice::open(settings_of_device.clone())?;
+        Ok(Box::new(Watched { device, allocator_calls: counted.clone() }))
     };
     let (out, mut drain) = samples(4096);
     let mut motor = MotorLoop::start(open, settings(), out).unwrap();
-    let before = ALLOCATOR_CALLS.load(SeqCst);
     let (mut pressed_n, mut last) = (0.0f64, None);
     // Targets as often as periods, so that every period lets go of an old one; then none, so that the hand lets go.
     for i in 0..6000u32 {
@@ -308,7 +322,7 @@ fn a_hand_that_is_led_by_a_pointer_presses_and_never_calls_the_allocator() {
         last = Some(sample);
     }
     motor.stop().unwrap();
-    assert_eq!(ALLOCATOR_CALLS.load(SeqCst) - before, 0, "allocations or frees in the motor loop's thread");
+    assert_eq!(allocator_calls.load(SeqCst), 0, "allocations or frees in the motor loop's thread");
     assert!(pressed_n > 0.1, "{pressed_n} N");
     let last = last.unwrap();
     assert!(last.wrench.force_n.z < 0.1 * pressed_n, "the hand has let go: {:?}", last.wrench);
