@@ -327,12 +327,12 @@ fn numbers_that_make_no_sense_are_refused() {
             &["--harmonics", "2"],
             &["--sites 24: too few for 2 harmonics", "accepted: 28 or more (12 + 8 H"],
         ),
-        (&[("--sites", "501")], &[], &["--sites 501; accepted: up to 500"]),
+        (&[("--sites", "241")], &[], &["--sites 241; accepted: up to 240"]),
         (&[], &["--modes", "13"], &["too few for 0 harmonics and 13 body modes; accepted: 26 or more"]),
         (
-            &[("--sites", "400")],
-            &[],
-            &["vertices are 2 contact radii (0.0100 m) or more from where the body is held"],
+            &[("--sites", "240")],
+            &["--contact-radius", "0.015"],
+            &["--sites 240: ", "vertices are 2 contact radii (0.0300 m) or more from where the body is held"],
         ),
         (
             &[],

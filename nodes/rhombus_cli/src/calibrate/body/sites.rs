@@ -9,8 +9,8 @@ use crate::calibrate::errors::at_vertex;
 /// Sites where nothing else is asked for.
 pub(super) const DEFAULT_SITES: usize = 80;
 
-/// The stiffness between so many is still found in minutes, and the file's header has room for their numbers.
-pub(super) const MOST_SITES: usize = 500;
+/// The fit's memory grows with the square of the sites: 2.2 GB for a block with 160, 3.2 GB with 240.
+pub(super) const MOST_SITES: usize = 240;
 
 /// A site is at least this many contact radii from what is held: a disc there would touch it.
 const CLEARANCE: f64 = 2.0;
