@@ -201,6 +201,15 @@ def test_the_committed_recordings_are_answered_over_dds_with_the_committed_diges
     assert answered == report["poses"] == program.closing_report()["lockstep"]["poses"]
 
 
+@pytest.mark.parametrize(("name", "parameters", "digest"), COMMITTED)
+def test_with_optimization_the_committed_recordings_are_replayed_to_the_committed_digest(name, parameters, digest):
+    command = [peer.PROGRAMS / "rhombus", "replay", REPOSITORY / "tests/bags" / name]
+    command += ["--params", REPOSITORY / parameters, "--json"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert json.loads(done.stdout)["sha256"] == digest
+
+
 def broken_poses():
     """A press in which poses are none, and stamps repeat, jump back and are zero."""
     for i in range(400):
