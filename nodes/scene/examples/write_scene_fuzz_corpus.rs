@@ -1,4 +1,4 @@
-//! Writes the corpus that fuzzing starts from: `write_fuzz_corpus nodes/scene/fuzz/corpus`. The same files each time.
+//! Writes the corpus that fuzzing starts from: `write_scene_fuzz_corpus nodes/scene/fuzz/corpus`. The same files each time.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ const VERTICES: usize = 4;
 const CHECKSUM_BYTES: usize = 4;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let corpus = std::env::args().nth(1).ok_or("usage: write_fuzz_corpus DIRECTORY")?;
+    let corpus = std::env::args().nth(1).ok_or("usage: write_scene_fuzz_corpus DIRECTORY")?;
     let directory = Path::new(&corpus).join("response");
     std::fs::create_dir_all(&directory)?;
     for (name, chains, harmonics, modes) in [("plain", 1, 0, 0), ("directional", 2, 2, 3)] {

@@ -1,4 +1,4 @@
-//! Writes the corpus that fuzzing starts from: `write_fuzz_corpus nodes/recording/fuzz/corpus`. The same files each time.
+//! Writes the corpus that fuzzing starts from: `write_recording_fuzz_corpus nodes/recording/fuzz/corpus`. The same files each time.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ const QOS: &str = "- history: keep_last\n  depth: 1\n  reliability: reliable\n  
     sec: 0\n    nsec: 0\n  avoid_ros_namespace_conventions: false";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let corpus = std::env::args().nth(1).ok_or("usage: write_fuzz_corpus DIRECTORY")?;
+    let corpus = std::env::args().nth(1).ok_or("usage: write_recording_fuzz_corpus DIRECTORY")?;
     let save = |target: &str, name: &str, bytes: &[u8]| -> std::io::Result<()> {
         let directory = Path::new(&corpus).join(target);
         std::fs::create_dir_all(&directory)?;
