@@ -18,6 +18,7 @@ from typing import Callable
 from std_msgs.msg import Empty
 
 import peer as graph
+from processors import Processors
 from record import change_n
 from rig import NotPressing
 from threads import Hang
@@ -208,13 +209,18 @@ def stand_by(rig, fault, seconds=5.0):
     rig.wait_pressing()
     strike, end = fault.arm(rig)
     force_n = rig.wait_pressing()
+    processors = Processors()
     begin_ns = strike()
     try:
-        time.sleep(seconds)
+        processors.watch(seconds)
         lines = rig.record.since(begin_ns)
     finally:
         end()
     rig.check_device(lines)
+    changed = next((line for line in lines if abs(line.size_n - force_n) > UNCHANGED_N), None)
+    # No law within its validity, and nobody is in the way but the machine itself.
+    if changed and processors.were_busy(changed.t_ns - LAW_MS * graph.MS, changed.t_ns):
+        raise NotPressing("the machine had no time left for a contact law")
     return Change(force_n, max(abs(line.size_n - force_n) for line in lines))
 
 

@@ -42,7 +42,7 @@ def as_a_device():
 
 
 class NotPressing(AssertionError):
-    """The motors do not push before anything was broken."""
+    """The motors do not push before anything was broken, or the machine was too busy for the session."""
 
 
 class Double:

@@ -58,11 +58,11 @@ def press(tmp_path):
 
 
 def busy_machine(test):
-    """Runs a test again, twice at most, when the machine was too busy to be the device before anything was broken."""
+    """Runs a test again, four times at most, when the machine was too busy to be the device before anything was broken."""
 
     @functools.wraps(test)
     def again(*arguments, **options):
-        for _ in range(2):
+        for _ in range(4):
             try:
                 return test(*arguments, **options)
             except NotPressing as reason:

@@ -41,6 +41,11 @@ impl Request {
         }
     }
 
+    /// What a publisher whose message arrived offers at least, where nothing else is known of it.
+    pub(crate) fn granted(self) -> QosProfile {
+        QosProfile { history: HistoryPolicy::Unknown, depth: 0, ..self.profile() }
+    }
+
     /// As a subscription needs it.
     pub(crate) fn profile(self) -> QosProfile {
         let profile = QosProfile::default().keep_last(RECORDER_DEPTH);
@@ -129,6 +134,15 @@ mod tests {
             both.and(Request::matching(&[offer(true, false)])),
             Request { reliable: true, transient_local: false }
         );
+    }
+
+    #[test]
+    fn a_publisher_that_was_heard_before_the_graph_knew_it_is_recorded_with_what_it_must_offer() {
+        let latched = recorded(&Request { reliable: true, transient_local: true }.granted());
+        assert!(is_reliable(std::slice::from_ref(&latched)) && is_latched(std::slice::from_ref(&latched)));
+        assert_eq!((latched.history, latched.depth), (History::Unknown, 0), "how much it keeps is not known");
+        let weak = recorded(&Request { reliable: false, transient_local: false }.granted());
+        assert!(!is_reliable(std::slice::from_ref(&weak)) && !is_latched(&[weak]));
     }
 
     #[test]

@@ -161,7 +161,11 @@ impl Subscription {
         let Some(message) = inner.take()? else { return Ok(()) };
         let (data, received_ns) = (message.data.to_vec(), message.received_ns);
         let publishers = kit.node().get_publishers_info_by_topic(&self.name, false).unwrap_or_default();
-        let offers: Vec<_> = publishers.into_iter().map(|publisher| publisher.qos_profile).collect();
+        let mut offers: Vec<_> = publishers.into_iter().map(|publisher| publisher.qos_profile).collect();
+        if offers.is_empty() {
+            // A message may come before the graph tells of its publisher.
+            offers.push(self.request.granted());
+        }
         let stored_as = self.announce(storage, &offers);
         batch.push(stored_as, received_ns, &data);
         self.heard = Some(Instant::now());
