@@ -211,22 +211,20 @@ def test_nan_is_not_sent_and_counted(start):
     body_is_scene(session)
     page = session.page()
     session.wait_for(lambda: page.shown[SURFACE], "the plate")
-    session.publish("surface_displacement", displacement([CENTRE], math.nan))
-    session.publish("surface_displacement", displacement([CENTRE], -0.002, version=1))
     bad = contact()
     bad.stiffness = math.inf
     wrong = pose()
     wrong.pose.position.x = math.nan
-    counted = lambda: (page.last("status") or {"not_drawn": {}})["not_drawn"] == {"not_drawable": 3, "other_mesh": 1}
-    session.publish("contact_state", bad)
-    session.publish("measured_cp", wrong)
-    session.spin(0.5)
-    if page.last("status")["not_drawn"]["other_mesh"] == 0:
-        # Of two displacements in one turn only the newest is looked at.
-        session.publish("surface_displacement", displacement([CENTRE], -0.002, version=1))
-    if page.last("status")["not_drawn"]["not_drawable"] == 2:
-        session.publish("surface_displacement", displacement([CENTRE], math.nan))
-    session.wait_for(counted, "what is not drawn is counted")
+    # One after the other: of two displacements in one turn only the newest is looked at.
+    for topic, message, not_drawable, other_mesh in [
+        ("surface_displacement", displacement([CENTRE], math.nan), 1, 0),
+        ("surface_displacement", displacement([CENTRE], -0.002, version=1), 1, 1),
+        ("contact_state", bad, 2, 1),
+        ("measured_cp", wrong, 3, 1),
+    ]:
+        session.publish(topic, message)
+        counts = {"not_drawable": not_drawable, "other_mesh": other_mesh}
+        session.wait_for(lambda counts=counts: (page.last("status") or {}).get("not_drawn") == counts, f"{counts} after {topic}")
     assert page.states()["flags"][0] == 0, "nothing of it is shown"
     assert all(len(page.surface(index)[2]) == 0 for index in range(len(page.shown[SURFACE])))
     for _, payload in page.shown[STATE]:
