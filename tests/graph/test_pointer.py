@@ -206,10 +206,11 @@ def test_a_target_out_of_reach_is_not_followed_to_a_place_beside_it_and_named(se
     pointer.lead(beside, 1.5)
     assert abs(pointer.handle()[0] - x) < 1e-3, "the hand stays where it was"
     assert pointer.forces[-1].wrench.force.z < 0.1 * force_n, "and has let go: the tissue has pushed it out"
-    level, summary, values = peer.statuses["/haptic_device: pointer"][-1]
+    told = lambda: peer.statuses["/haptic_device: pointer"][-1]
+    pointer.until(beside, lambda: int(told()[2]["out_of_reach"]) > 50, "they are counted")
+    level, summary, values = told()
     assert (level, values["is_out_of_reach"], values["is_led"]) == (1, "true", "false")
     assert re.fullmatch(r"[1-9]\d* targets out of reach of the device", summary)
-    assert int(values["out_of_reach"]) > 50
     pointer.until(CLEAR, lambda: pointer.is_at(CLEAR, 1e-3), "what is in reach is followed")
     assert peer.new_status("/haptic_device: pointer")[2]["is_out_of_reach"] == "false"
 
