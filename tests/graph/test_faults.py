@@ -58,7 +58,8 @@ def press(tmp_path):
 
 
 def busy_machine(test):
-    """Runs a test again, four times at most, when the machine was too busy to be the device before anything was broken."""
+    """Runs a test again, four times at most, when the machine was too busy for a session: before anything was broken, or, as
+    far as that can be told from what was broken, during it."""
 
     @functools.wraps(test)
     def again(*arguments, **options):

@@ -202,7 +202,7 @@ def test_the_committed_recordings_are_answered_over_dds_with_the_committed_diges
 
 
 @pytest.mark.parametrize(("name", "parameters", "digest"), COMMITTED)
-def test_with_optimization_the_committed_recordings_are_replayed_to_the_committed_digest(name, parameters, digest):
+def test_fully_optimized_the_committed_recordings_are_replayed_to_the_committed_digest(name, parameters, digest):
     command = [peer.PROGRAMS / "rhombus", "replay", REPOSITORY / "tests/bags" / name]
     command += ["--params", REPOSITORY / parameters, "--json"]
     done = subprocess.run(command, capture_output=True, text=True)

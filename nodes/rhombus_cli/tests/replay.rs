@@ -72,7 +72,7 @@ fn golden(folder: &Path, name: &str) -> String {
     golden
 }
 
-/// The one committed hash: today, on every machine, with and without optimization.
+/// The one committed hash: today, on every machine, with debug assertions and without.
 #[test]
 fn every_recording_is_answered_with_the_committed_bits() {
     let committed = std::fs::read_to_string(repository().join("tests/bags/sha256.txt")).unwrap();
